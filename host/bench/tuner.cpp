@@ -111,8 +111,10 @@ Work picture_work(Device& device, const Room& room) {
                 const DeviceScene& scene = room.session.device_scene();
                 s.camera_pass.run(scene, s.camera, room.view.camera.width, s.close_range, s.band, 1,
                                   s.receivers, s.vertices);
-                s.receiver_paths.run(scene, s.receivers, s.packets,
-                                     {.light_samples = 4, .path_count = 1, .max_edges = 3, .seed = 1},
+                s.receiver_paths.run({scene,
+                                      s.receivers,
+                                      s.packets,
+                                      {.light_samples = 4, .path_count = 1, .max_edges = 3, .seed = 1}},
                                      s.direct, s.indirect);
             },
             [state] { return hash_of(state->direct); }};

@@ -37,8 +37,9 @@ std::vector<Vpl> lit_patches(SamplerStages& stages, const SamplingTask& task, Cl
     Buffer<IrradiancePacket> irradiance(stages.device, packets);
     stages.vpl_light.make_receivers(vpls, dark.size(), VplSide::receives, receivers);
     Buffer<IrradiancePacket> indirect(stages.device, packets);
-    stages.receiver_paths.run(task.scene, receivers, packets,
-                              {.light_samples = kDirectSamplesPerPatch, .seed = seed}, irradiance, indirect);
+    stages.receiver_paths.run(
+        {task.scene, receivers, packets, {.light_samples = kDirectSamplesPerPatch, .seed = seed}}, irradiance,
+        indirect);
     stages.vpl_light.apply(irradiance, dark.size(), vpls);
     std::vector<Vpl> lit = vpls.download();
     std::erase_if(lit, [](const Vpl& vpl) { return is_zero(vpl.power); });

@@ -76,12 +76,14 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                            const IncidentQuality& quality, uint seed, Buffer<IrradiancePacket>& irradiance) {
     const DeviceScene& scene = sources.scene;
     Buffer<IrradiancePacket> indirect(stages.device, packet_count);
-    stages.receiver_paths.run(scene, receivers, packet_count,
-                              {.light_samples = quality.direct_samples,
-                               .path_count = quality.paths,
-                               .max_edges = sources.bounce_count + 1,
-                               .clamp_radius = sources.clamp_radius,
-                               .seed = seed},
+    stages.receiver_paths.run({scene,
+                               receivers,
+                               packet_count,
+                               {.light_samples = quality.direct_samples,
+                                .path_count = quality.paths,
+                                .max_edges = sources.bounce_count + 1,
+                                .clamp_radius = sources.clamp_radius,
+                                .seed = seed}},
                               irradiance, indirect);
     stages.vpl_light.add(indirect, packet_count, irradiance);
     if (!sources.vpls.empty()) {

@@ -48,7 +48,7 @@ void check_direct_light(Device& device, CheckResult& result) {
     const Buffer<ReceiverPacket> input(device, receivers);
     Buffer<IrradiancePacket> irradiance(device, receivers.size());
     Buffer<IrradiancePacket> indirect(device, receivers.size());
-    ReceiverPaths(device).run(on_device, input, receivers.size(), {.seed = 1}, irradiance, indirect);
+    ReceiverPaths(device).run({on_device, input, receivers.size(), {.seed = 1}}, irradiance, indirect);
     const std::vector<IrradiancePacket> found = irradiance.download();
     EdgeExcuse edges(bvh.triangles, on_device.host_info.extent);
     for (std::size_t r = 0; r < receivers.size() * NEARLIGHT_PACKET_SIZE; ++r) {
@@ -71,7 +71,8 @@ void check_light_tracing(Device& device, CheckResult& result) {
     CloseRegion region;
     region.range = Buffer<CloseRange>(device, std::span(&nothing, 1));
     region.triangles = Buffer<uint>(device, std::vector<uint>(scene.triangles.size(), 0));
-    const LightWalks walks{.walk_count = 20'000, .bounce_count = 4, .min_survival = 0.6f, .max_survival = 0.6f, .seed = 3};
+    const LightWalks walks{
+        .walk_count = 20'000, .bounce_count = 4, .min_survival = 0.6f, .max_survival = 0.6f, .seed = 3};
     std::array<std::array<double, 3>, 4> power{};
     for (const Vpl& vpl : LightTracer(device).run(on_device, region, KeepDeposits::all, walks)) {
         power.at(vpl.depth - 1)[0] += vpl.power.x;

@@ -189,8 +189,10 @@ void check_receiver_paths(Device& device, CheckResult& result) {
             Buffer<IrradiancePacket> direct(device, 1);
             Buffer<IrradiancePacket> indirect(device, 1);
             stage.run(
-                on_device, receivers, 1,
-                {.path_count = kSamples, .max_edges = bounces + 1, .clamp_radius = clamp_radius, .seed = 4},
+                {on_device,
+                 receivers,
+                 1,
+                 {.path_count = kSamples, .max_edges = bounces + 1, .clamp_radius = clamp_radius, .seed = 4}},
                 direct, indirect);
             // Single receivers are compared only where no path ends by chance, which adds noise: up to two
             // bounces, if rays bring all light.

@@ -103,7 +103,7 @@ void check_shared_lights(Device& device, CheckResult& result) {
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
         SharedLights(device, kernel)
-            .add(on_device, receivers, data.receivers.size(), settings, lights, irradiance);
+            .add({on_device, receivers, data.receivers.size(), settings}, lights, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }
@@ -130,7 +130,7 @@ void check_shared_sky(Device& device, CheckResult& result) {
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
         SharedSky(device, kernel)
-            .add(on_device, receivers, data.receivers.size(), settings, lights,
+            .add({on_device, receivers, data.receivers.size(), settings}, lights,
                  {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
@@ -156,7 +156,7 @@ void check_shared_reflections(Device& device, CheckResult& result) {
         const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
         Buffer<IrradiancePacket> irradiance(device, packets);
         irradiance.fill_zero();
-        SharedReflections(device, kernel).add(on_device, receivers, packets, settings, found, irradiance);
+        SharedReflections(device, kernel).add({on_device, receivers, packets, settings}, found, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }

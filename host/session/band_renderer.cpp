@@ -144,20 +144,18 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
 
 /// As trace_receivers(), where bundles share what the rays of their receivers find.
 void BandRenderer::trace_sharing_receivers(std::size_t packets) {
-    stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths_, buffers_.direct,
-                                       buffers_.indirect, buffers_.found);
-    stages_.shared_lights.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.near,
-                              buffers_.indirect);
+    const ReceiverBatch batch{scene_, buffers_.receivers, packets, paths_};
+    const FoundLights& found = buffers_.found;
+    stages_.receiver_paths.run_sharing(batch, buffers_.direct, buffers_.indirect, buffers_.found);
+    stages_.shared_lights.add(batch, found.near, buffers_.indirect);
     if (paths_.shares_reflections) {
-        stages_.shared_reflections.add(scene_, buffers_.receivers, packets, paths_, buffers_.found,
-                                       buffers_.indirect);
+        stages_.shared_reflections.add(batch, found, buffers_.indirect);
     }
     if (paths_.shares_veiled) {
-        stages_.shared_veiled.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.veiled,
-                                  buffers_.indirect);
+        stages_.shared_veiled.add(batch, found.veiled, buffers_.indirect);
     }
     if (paths_.shares_sky) {
-        stages_.shared_sky.add(scene_, buffers_.receivers, packets, paths_, buffers_.found.sky,
+        stages_.shared_sky.add(batch, found.sky,
                                {.surfaces = buffers_.seen,
                                 .vertices = buffers_.vertices,
                                 .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},
@@ -175,7 +173,7 @@ void BandRenderer::trace_receivers(std::size_t packets) {
     if (shares_lights(picture_)) {
         trace_sharing_receivers(packets);
     } else {
-        stages_.receiver_paths.run(scene_, buffers_.receivers, packets, paths_, buffers_.direct,
+        stages_.receiver_paths.run({scene_, buffers_.receivers, packets, paths_}, buffers_.direct,
                                    buffers_.indirect);
     }
     if (picture_.settings.indirect_only) {

@@ -53,12 +53,14 @@ PilotLight light_of(const BudgetPilot& pilot, float radius) {
     Buffer<IrradiancePacket> direct(device, packets);
     Buffer<IrradiancePacket> indirect(device, packets);
     for (std::size_t i = 0; i < kRaySeeds.size(); ++i) {
-        pilot.stages.receiver_paths.run(pilot.scene, pilot.view.receivers, packets,
-                                        {.light_samples = 1,
-                                         .path_count = 1,
-                                         .max_edges = pilot.max_edges,
-                                         .clamp_radius = radius,
-                                         .seed = pilot.seed ^ kRaySeeds[i]},
+        pilot.stages.receiver_paths.run({pilot.scene,
+                                         pilot.view.receivers,
+                                         packets,
+                                         {.light_samples = 1,
+                                          .path_count = 1,
+                                          .max_edges = pilot.max_edges,
+                                          .clamp_radius = radius,
+                                          .seed = pilot.seed ^ kRaySeeds[i]}},
                                         direct, indirect);
         light.direct[i] = direct.download();
         light.rays[i] = indirect.download();

@@ -18,7 +18,7 @@ float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, c
     const ReceiverPathSettings settings{
         .path_count = 1, .max_edges = 64, .clamp_radius = 1e-6f, .seed = seed, .shares_sky = true};
     FoundLights found(device, view.packet_count, settings);
-    paths.run_sharing(scene, view.receivers, view.packet_count, settings, direct, indirect, found);
+    paths.run_sharing({scene, view.receivers, view.packet_count, settings}, direct, indirect, found);
     const std::vector<SharedLight> lights = found.sky.download();
     const auto met = std::ranges::count_if(lights, [](const SharedLight& light) { return light.weight > 0; });
     std::ptrdiff_t present = 0;

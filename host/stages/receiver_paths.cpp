@@ -30,29 +30,25 @@ ReceiverPaths::ReceiverPaths(Device& device)
       receiver_spacing_(program_, "receiver_spacing"),
       none_found_(device, 0, {}) {}
 
-void ReceiverPaths::run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                        std::size_t packet_count, const ReceiverPathSettings& settings,
-                        Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect) {
-    launch(scene, receivers, packet_count, settings, 0u, direct, indirect, none_found_);
+void ReceiverPaths::run(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
+                        Buffer<IrradiancePacket>& indirect) {
+    launch(batch, 0u, direct, indirect, none_found_);
 }
 
-void ReceiverPaths::run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                                std::size_t packet_count, const ReceiverPathSettings& settings,
-                                Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
-                                FoundLights& found) {
-    if (settings.shares_reflections) {
-        const auto packets = static_cast<uint>(packet_count);
-        receiver_spacing_.launch_items(BundleLayout{packets}.bundle_count(), receivers, packets,
-                                       settings.max_edges, found.spacing);
+void ReceiverPaths::run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
+                                Buffer<IrradiancePacket>& indirect, FoundLights& found) {
+    if (batch.settings.shares_reflections) {
+        const auto packets = static_cast<uint>(batch.packet_count);
+        receiver_spacing_.launch_items(BundleLayout{packets}.bundle_count(), batch.receivers, packets,
+                                       batch.settings.max_edges, found.spacing);
     }
-    launch(scene, receivers, packet_count, settings, shared_kinds(settings), direct, indirect, found);
+    launch(batch, shared_kinds(batch.settings), direct, indirect, found);
 }
 
-void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                           std::size_t packet_count, const ReceiverPathSettings& settings, uint shared_kinds,
-                           Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
-                           FoundLights& found) {
-    const ReceiverPathParams params{.packet_count = static_cast<uint>(packet_count),
+void ReceiverPaths::launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
+                           Buffer<IrradiancePacket>& indirect, FoundLights& found) {
+    const ReceiverPathSettings& settings = batch.settings;
+    const ReceiverPathParams params{.packet_count = static_cast<uint>(batch.packet_count),
                                     .light_samples = settings.light_samples,
                                     .path_count = settings.path_count,
                                     .max_edges = settings.max_edges,
@@ -60,9 +56,10 @@ void ReceiverPaths::launch(const DeviceScene& scene, const Buffer<ReceiverPacket
                                     .seed = settings.seed,
                                     .shares = shared_kinds,
                                     .pad0 = 0};
-    receiver_paths_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
-                                 params, direct, indirect, found.near, found.sky, found.veiled,
-                                 found.reflected, found.reflections, found.spacing);
+    receiver_paths_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene,
+                                 VeilsForRays{batch.scene}, batch.receivers, params, direct, indirect,
+                                 found.near, found.sky, found.veiled, found.reflected, found.reflections,
+                                 found.spacing);
 }
 
 }  // namespace nearlight::core

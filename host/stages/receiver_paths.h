@@ -27,6 +27,14 @@ struct ReceiverPathSettings {
     bool shares_reflections = false;  ///< whether it leaves light there that rough gloss reflects
 };
 
+/// Receivers on a scene, the first `packet_count` packets, and how their paths go.
+struct ReceiverBatch {
+    const DeviceScene& scene;
+    const Buffer<ReceiverPacket>& receivers;
+    std::size_t packet_count;
+    ReceiverPathSettings settings;
+};
+
 /// The lights that receivers find and share with their bundles: one of each kind for each receiver.
 struct FoundLights {
     /// Makes room for those that run_sharing() leaves with such settings.
@@ -46,22 +54,18 @@ class ReceiverPaths {
 
     /// Writes the irradiance (W/m²) of each receiver: `direct` gets what comes straight from lights, and
     /// `indirect` what rays bring over other surfaces.
-    void run(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-             const ReceiverPathSettings& settings, Buffer<IrradiancePacket>& direct,
+    void run(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
              Buffer<IrradiancePacket>& indirect);
 
     /// As run(), except for the Lambertian light of places within the clamp radius, and for other kinds of
     /// light if the settings say so. Where a receiver may share what it finds of these with others
     /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights, SharedSky,
     /// SharedVeiled and SharedReflections bring it to all of the bundle. The clamp radius must be finite.
-    void run_sharing(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                     std::size_t packet_count, const ReceiverPathSettings& settings,
-                     Buffer<IrradiancePacket>& direct, Buffer<IrradiancePacket>& indirect,
-                     FoundLights& found);
+    void run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
+                     Buffer<IrradiancePacket>& indirect, FoundLights& found);
 
   private:
-    void launch(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-                const ReceiverPathSettings& settings, uint shared_kinds, Buffer<IrradiancePacket>& direct,
+    void launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
                 Buffer<IrradiancePacket>& indirect, FoundLights& found);
 
     Program program_;

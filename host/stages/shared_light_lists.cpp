@@ -37,19 +37,20 @@ void SharedLightLists::resize(std::size_t bundle_count) {
     }
 }
 
-void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                            std::size_t packet_count, const ReceiverPathSettings& settings, float radius,
-                            const Buffer<SharedLight>& found, uint count, Hiding hiding) {
-    const auto packets = static_cast<uint>(packet_count);
+void SharedLightLists::make(const ReceiverBatch& batch, float radius, const Buffer<SharedLight>& found,
+                            uint count, Hiding hiding) {
+    const DeviceScene& scene = batch.scene;
+    const ReceiverPathSettings& settings = batch.settings;
+    const auto packets = static_cast<uint>(batch.packet_count);
     const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
     resize(bundle_count);
-    choose_.launch_items(bundle_count, receivers, packets, found, count, settings.seed, listed_, factors_,
-                         lengths_);
+    choose_.launch_items(bundle_count, batch.receivers, packets, found, count, settings.seed, listed_,
+                         factors_, lengths_);
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
-        visibility_.launch(items, local_size, nodes, triangles, receivers, packets, found, radius * radius,
-                           settings.max_edges, settings.path_count, listed_, lengths_, factors_, seen_by_,
-                           rest...);
+        visibility_.launch(items, local_size, nodes, triangles, batch.receivers, packets, found,
+                           radius * radius, settings.max_edges, settings.path_count, listed_, lengths_,
+                           factors_, seen_by_, rest...);
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,

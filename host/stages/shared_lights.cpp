@@ -11,15 +11,14 @@ SharedLights::SharedLights(Device& device, GatherKernel kernel)
       gather_(program_, "shared_light_gather"),
       no_curves_(device, 0) {}
 
-void SharedLights::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                       std::size_t packet_count, const ReceiverPathSettings& settings,
-                       const Buffer<SharedLight>& found, Buffer<IrradiancePacket>& irradiance) {
-    const float radius = settings.clamp_radius;
-    lists_.make(scene, receivers, packet_count, settings, radius, found, NEARLIGHT_SHARED_LIGHTS);
-    const Buffer<float>* curves = scene.curves_in_use();
-    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, receivers, static_cast<uint>(packet_count),
-                         found, curves != nullptr ? *curves : no_curves_, radius * radius, lists_,
-                         irradiance);
+void SharedLights::add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+                       Buffer<IrradiancePacket>& irradiance) {
+    const float radius = batch.settings.clamp_radius;
+    lists_.make(batch, radius, found, NEARLIGHT_SHARED_LIGHTS);
+    const Buffer<float>* curves = batch.scene.curves_in_use();
+    gather_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.receivers,
+                         static_cast<uint>(batch.packet_count), found,
+                         curves != nullptr ? *curves : no_curves_, radius * radius, lists_, irradiance);
 }
 
 }  // namespace nearlight::core

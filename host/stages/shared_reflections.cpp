@@ -13,14 +13,12 @@ SharedReflections::SharedReflections(Device& device, GatherKernel kernel)
       program_(device, "shared_reflections.cl", kViewProgram),
       gather_(program_, "shared_reflection_gather") {}
 
-void SharedReflections::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                            std::size_t packet_count, const ReceiverPathSettings& settings,
-                            const FoundLights& found, Buffer<IrradiancePacket>& irradiance) {
-    lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(),
-                found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
-    const auto packets = static_cast<uint>(packet_count);
-    gather_.launch_items(BundleLayout{packets}.bundle_count(), scene, receivers, packets, found.reflected,
-                         found.reflections, found.spacing, lists_, irradiance);
+void SharedReflections::add(const ReceiverBatch& batch, const FoundLights& found,
+                            Buffer<IrradiancePacket>& irradiance) {
+    lists_.make(batch, std::numeric_limits<float>::infinity(), found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
+    const auto packets = static_cast<uint>(batch.packet_count);
+    gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, batch.receivers, packets,
+                         found.reflected, found.reflections, found.spacing, lists_, irradiance);
 }
 
 }  // namespace nearlight::core

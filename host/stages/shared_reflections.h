@@ -15,9 +15,7 @@ class SharedReflections {
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
     /// left to the reflections of `found`, with settings.shares_reflections: unbiased estimates. The tree of
     /// the scene must be uploaded for the gather kernel.
-    void add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-             const ReceiverPathSettings& settings, const FoundLights& found,
-             Buffer<IrradiancePacket>& irradiance);
+    void add(const ReceiverBatch& batch, const FoundLights& found, Buffer<IrradiancePacket>& irradiance);
 
   private:
     SharedLightLists lists_;

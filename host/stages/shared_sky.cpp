@@ -12,15 +12,14 @@ SharedSky::SharedSky(Device& device, GatherKernel kernel)
       program_(device, "shared_sky.cl", kViewProgram),
       gather_(program_, "shared_sky_gather") {}
 
-void SharedSky::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                    std::size_t packet_count, const ReceiverPathSettings& settings,
-                    const Buffer<SharedLight>& found, const SeenSurfaces& seen,
+void SharedSky::add(const ReceiverBatch& batch, const Buffer<SharedLight>& found, const SeenSurfaces& seen,
                     Buffer<IrradiancePacket>& irradiance) {
-    lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(), found,
-                NEARLIGHT_SHARED_SKY_LIGHTS, Hiding::solids);
-    gather_.launch_items(packet_count * NEARLIGHT_PACKET_SIZE, scene, VeilsForRays{scene}, receivers,
-                         static_cast<uint>(packet_count), found, lists_, settings.path_count,
-                         settings.light_samples, settings.max_edges, irradiance,
+    const ReceiverPathSettings& settings = batch.settings;
+    lists_.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_SKY_LIGHTS,
+                Hiding::solids);
+    gather_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene, VeilsForRays{batch.scene},
+                         batch.receivers, static_cast<uint>(batch.packet_count), found, lists_,
+                         settings.path_count, settings.light_samples, settings.max_edges, irradiance,
                          seen.surfaces.count() > 0 ? 1u : 0u, seen.rays, seen.surfaces, seen.vertices);
 }
 

@@ -24,8 +24,7 @@ class SharedSky {
     /// left to found.sky, and to the vertices what the camera pass with the same rays left of the light that
     /// surfaces reflect other than diffusely: unbiased estimates. The tree of the scene must be uploaded for
     /// the gather kernel.
-    void add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-             const ReceiverPathSettings& settings, const Buffer<SharedLight>& found, const SeenSurfaces& seen,
+    void add(const ReceiverBatch& batch, const Buffer<SharedLight>& found, const SeenSurfaces& seen,
              Buffer<IrradiancePacket>& irradiance);
 
   private:

@@ -13,14 +13,13 @@ SharedVeiled::SharedVeiled(Device& device, GatherKernel kernel)
       program_(device, "shared_veiled.cl", kViewProgram),
       gather_(program_, "shared_veiled_gather") {}
 
-void SharedVeiled::add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                       std::size_t packet_count, const ReceiverPathSettings& settings,
-                       const Buffer<SharedLight>& found, Buffer<IrradiancePacket>& irradiance) {
-    lists_.make(scene, receivers, packet_count, settings, std::numeric_limits<float>::infinity(), found,
-                NEARLIGHT_SHARED_VEILED_LIGHTS, Hiding::solids);
-    const auto packets = static_cast<uint>(packet_count);
-    gather_.launch_items(BundleLayout{packets}.bundle_count(), scene, VeilsForRays{scene}, receivers, packets,
-                         found, lists_, irradiance);
+void SharedVeiled::add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+                       Buffer<IrradiancePacket>& irradiance) {
+    lists_.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_VEILED_LIGHTS,
+                Hiding::solids);
+    const auto packets = static_cast<uint>(batch.packet_count);
+    gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, VeilsForRays{batch.scene},
+                         batch.receivers, packets, found, lists_, irradiance);
 }
 
 }  // namespace nearlight::core

@@ -15,8 +15,7 @@ class SharedVeiled {
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
     /// left to found.veiled, with settings.shares_veiled: unbiased estimates. The tree of the scene must be
     /// uploaded for the gather kernel.
-    void add(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers, std::size_t packet_count,
-             const ReceiverPathSettings& settings, const Buffer<SharedLight>& found,
+    void add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
              Buffer<IrradiancePacket>& irradiance);
 
   private:

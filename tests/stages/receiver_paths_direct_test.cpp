@@ -48,8 +48,10 @@ std::vector<IrradiancePacket> illuminate(Device& device, const Scene& scene,
     const Buffer<ReceiverPacket> input(device, receivers);
     Buffer<IrradiancePacket> direct(device, receivers.size());
     Buffer<IrradiancePacket> indirect(device, receivers.size());
-    ReceiverPaths(device).run(on_device.buffers, input, receivers.size(),
-                              {.light_samples = samples.light, .path_count = samples.rays, .seed = seed},
+    ReceiverPaths(device).run({on_device.buffers,
+                               input,
+                               receivers.size(),
+                               {.light_samples = samples.light, .path_count = samples.rays, .seed = seed}},
                               direct, indirect);
     for (const IrradiancePacket& packet : indirect.download()) {
         for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {

@@ -96,9 +96,11 @@ struct CornerLight {
     double traced(float radius, uint bounces, uint samples, Buffer<IrradiancePacket>& direct) {
         Buffer<IrradiancePacket> indirect(device, 1);
         ReceiverPaths(device).run(
-            on_gpu.buffers, receivers, 1,
-            {.path_count = samples, .max_edges = bounces + 1, .clamp_radius = radius, .seed = 4}, direct,
-            indirect);
+            {on_gpu.buffers,
+             receivers,
+             1,
+             {.path_count = samples, .max_edges = bounces + 1, .clamp_radius = radius, .seed = 4}},
+            direct, indirect);
         return mean_green(indirect);
     }
     double gathered(float radius, uint bounces) {
@@ -257,12 +259,14 @@ class MirroredLamp {
         const Buffer<ReceiverPacket> receivers(*device_, std::span(&packet_, 1));
         Buffer<IrradiancePacket> direct(*device_, 1);
         Buffer<IrradiancePacket> indirect(*device_, 1);
-        ReceiverPaths(*device_).run(on_gpu_.buffers, receivers, 1,
-                                    {.light_samples = 1024,
-                                     .path_count = 4096,
-                                     .max_edges = max_edges,
-                                     .clamp_radius = 0.0f,
-                                     .seed = 6},
+        ReceiverPaths(*device_).run({on_gpu_.buffers,
+                                     receivers,
+                                     1,
+                                     {.light_samples = 1024,
+                                      .path_count = 4096,
+                                      .max_edges = max_edges,
+                                      .clamp_radius = 0.0f,
+                                      .seed = 6}},
                                     direct, indirect);
         return {mean_green(direct), mean_green(indirect)};
     }

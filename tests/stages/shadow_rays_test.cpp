@@ -78,7 +78,7 @@ Arrived arrived(Device& device, const Scene& scene, const ReceiverPathSettings& 
     const Buffer<ReceiverPacket> receivers(device, std::span(&packet, 1));
     Buffer<IrradiancePacket> direct(device, 1);
     Buffer<IrradiancePacket> indirect(device, 1);
-    ReceiverPaths(device).run(on_device.buffers, receivers, 1, settings, direct, indirect);
+    ReceiverPaths(device).run({on_device.buffers, receivers, 1, settings}, direct, indirect);
     const IrradiancePacket found = direct.download_one(0);
     const IrradiancePacket beyond = indirect.download_one(0);
     Arrived result;

@@ -166,8 +166,9 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
             Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
             irradiance.fill_zero();
             SharedLights(device, kernel)
-                .add(on_device, Buffer<ReceiverPacket>(device, data.receivers), data.receivers.size(),
-                     settings, Buffer<SharedLight>(device, data.found), irradiance);
+                .add({on_device, Buffer<ReceiverPacket>(device, data.receivers), data.receivers.size(),
+                      settings},
+                     Buffer<SharedLight>(device, data.found), irradiance);
             const std::vector<IrradiancePacket> found = irradiance.download();
             for (std::size_t i = 0; i < wanted.size(); ++i) {
                 const Vec3 difference = irradiance_at(found, i) - wanted[i];

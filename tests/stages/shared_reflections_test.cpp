@@ -162,8 +162,8 @@ FoundLights find_reflections(Device& device, const Scene& scene, const std::vect
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
     FoundLights found(device, packets.size(), kTwoGlossyRays);
-    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), kTwoGlossyRays, direct, indirect,
-                                      found);
+    ReceiverPaths(device).run_sharing({on_device, receivers, packets.size(), kTwoGlossyRays}, direct,
+                                      indirect, found);
     return found;
 }
 

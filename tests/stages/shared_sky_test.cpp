@@ -107,12 +107,12 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
                                             .shares_sky = true};
         camera_pass.run(on_device, cameras, static_cast<uint>(kSide), regions, band, settings.seed, receivers,
                         vertices, &seen);
+        const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
-            paths.run_sharing(on_device, receivers, packets, settings, direct, indirect, found);
-            sky.add(on_device, receivers, packets, settings, found.sky,
-                    {.surfaces = seen, .vertices = vertices, .rays = search.rays}, direct);
+            paths.run_sharing(batch, direct, indirect, found);
+            sky.add(batch, found.sky, {.surfaces = seen, .vertices = vertices, .rays = search.rays}, direct);
         } else {
-            paths.run(on_device, receivers, packets, settings, direct, indirect);
+            paths.run(batch, direct, indirect);
         }
         const std::vector<IrradiancePacket> irradiance = direct.download();
         const std::vector<CameraVertex> met = vertices.download();

@@ -52,9 +52,11 @@ TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
         Buffer<IrradiancePacket> direct(device, packets);
         Buffer<IrradiancePacket> indirect(device, packets);
         ReceiverPaths(device).run(
-            scene.buffers, receivers, packets,
-            {.light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.3f, .seed = 2}, direct,
-            indirect);
+            {scene.buffers,
+             receivers,
+             packets,
+             {.light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.3f, .seed = 2}},
+            direct, indirect);
         const std::size_t pixels = std::size_t{camera.width} * camera.height;
         Buffer<float> sums(device, pixels * NEARLIGHT_FILM_CHANNELS);
         Buffer<float> layers(device, pixels * NEARLIGHT_LAYER_CHANNELS);

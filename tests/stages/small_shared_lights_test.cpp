@@ -43,18 +43,18 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
     Buffer<IrradiancePacket> direct(device, packets.size());
     Buffer<IrradiancePacket> indirect(device, packets.size());
     FoundLights found(device, packets.size(), settings);
-    ReceiverPaths(device).run_sharing(on_device, receivers, packets.size(), settings, direct, indirect,
-                                      found);
-    SharedLights(device, kernel).add(on_device, receivers, packets.size(), settings, found.near, indirect);
-    SharedReflections(device, kernel).add(on_device, receivers, packets.size(), settings, found, indirect);
-    SharedVeiled(device, kernel).add(on_device, receivers, packets.size(), settings, found.veiled, indirect);
+    const ReceiverBatch batch{on_device, receivers, packets.size(), settings};
+    ReceiverPaths(device).run_sharing(batch, direct, indirect, found);
+    SharedLights(device, kernel).add(batch, found.near, indirect);
+    SharedReflections(device, kernel).add(batch, found, indirect);
+    SharedVeiled(device, kernel).add(batch, found.veiled, indirect);
     Numbers numbers = numbers_of(indirect.download());
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     const SeenSurface seen{
         .triangle = 4, .u = 0.3f, .v = 0.3f, .model = 0.5f, .direction = {0, -1, 0}, .light_samples = 1};
     Buffer<CameraVertex> vertices(device, std::vector(count, CameraVertex{}));
     SharedSky(device, kernel)
-        .add(on_device, receivers, packets.size(), settings, found.sky,
+        .add(batch, found.sky,
              {.surfaces = Buffer<SeenSurface>(device, std::vector(count, seen)), .vertices = vertices},
              direct);
     for (const Numbers& more : {numbers_of(direct.download()), emitted_by(vertices.download())}) {

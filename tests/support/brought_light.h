@@ -51,17 +51,18 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
     Brought result{std::vector<double>(count), std::vector<double>(count)};
     for (uint seed = 0; seed < seeds; ++seed) {
         settings.seed = 100 + seed;
+        const ReceiverBatch batch{on_device, receivers, packets.size(), settings};
         if (shared) {
-            paths.run_sharing(on_device, receivers, packets.size(), settings, direct, indirect, found);
-            lights.add(on_device, receivers, packets.size(), settings, found.near, indirect);
+            paths.run_sharing(batch, direct, indirect, found);
+            lights.add(batch, found.near, indirect);
             if (settings.shares_reflections) {
-                reflections.add(on_device, receivers, packets.size(), settings, found, indirect);
+                reflections.add(batch, found, indirect);
             }
             if (settings.shares_veiled) {
-                veiled.add(on_device, receivers, packets.size(), settings, found.veiled, indirect);
+                veiled.add(batch, found.veiled, indirect);
             }
         } else {
-            paths.run(on_device, receivers, packets.size(), settings, direct, indirect);
+            paths.run(batch, direct, indirect);
         }
         const std::vector<IrradiancePacket> light = indirect.download();
         for (std::size_t i = 0; i < count; ++i) {
