@@ -102,8 +102,9 @@ void check_shared_lights(Device& device, CheckResult& result) {
         const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
-        SharedLights(device, kernel)
-            .add({on_device, receivers, data.receivers.size(), settings}, lights, irradiance);
+        SharedLightLists lists(device, kernel);
+        SharedLights(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
+                                 irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }
@@ -129,9 +130,9 @@ void check_shared_sky(Device& device, CheckResult& result) {
         const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
         Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
         irradiance.fill_zero();
-        SharedSky(device, kernel)
-            .add({on_device, receivers, data.receivers.size(), settings}, lights,
-                 {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
+        SharedLightLists lists(device, kernel);
+        SharedSky(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
+                              {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }
@@ -156,7 +157,8 @@ void check_shared_reflections(Device& device, CheckResult& result) {
         const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
         Buffer<IrradiancePacket> irradiance(device, packets);
         irradiance.fill_zero();
-        SharedReflections(device, kernel).add({on_device, receivers, packets, settings}, found, irradiance);
+        SharedLightLists lists(device, kernel);
+        SharedReflections(device).add({on_device, receivers, packets, settings}, lists, found, irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }

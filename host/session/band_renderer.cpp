@@ -146,16 +146,17 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
 void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     const ReceiverBatch batch{scene_, buffers_.receivers, packets, paths_};
     const FoundLights& found = buffers_.found;
+    SharedLightLists& lists = stages_.shared_light_lists;
     stages_.receiver_paths.run_sharing(batch, buffers_.direct, buffers_.indirect, buffers_.found);
-    stages_.shared_lights.add(batch, found.near, buffers_.indirect);
+    stages_.shared_lights.add(batch, lists, found.near, buffers_.indirect);
     if (paths_.shares_reflections) {
-        stages_.shared_reflections.add(batch, found, buffers_.indirect);
+        stages_.shared_reflections.add(batch, lists, found, buffers_.indirect);
     }
     if (paths_.shares_veiled) {
-        stages_.shared_veiled.add(batch, found.veiled, buffers_.indirect);
+        stages_.shared_veiled.add(batch, lists, found.veiled, buffers_.indirect);
     }
     if (paths_.shares_sky) {
-        stages_.shared_sky.add(batch, found.sky,
+        stages_.shared_sky.add(batch, lists, found.sky,
                                {.surfaces = buffers_.seen,
                                 .vertices = buffers_.vertices,
                                 .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},

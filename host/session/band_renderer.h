@@ -29,16 +29,18 @@ struct BandStages {
         : device(on_device),
           camera_pass(device),
           receiver_paths(device),
-          shared_lights(device, gather_kernel),
-          shared_sky(device, gather_kernel),
-          shared_veiled(device, gather_kernel),
-          shared_reflections(device, gather_kernel),
+          shared_light_lists(device, gather_kernel),
+          shared_lights(device),
+          shared_sky(device),
+          shared_veiled(device),
+          shared_reflections(device),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
 
     Device& device;
     CameraPass camera_pass;
     ReceiverPaths receiver_paths;
+    SharedLightLists shared_light_lists;
     SharedLights shared_lights;
     SharedSky shared_sky;
     SharedVeiled shared_veiled;

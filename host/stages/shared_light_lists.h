@@ -18,6 +18,8 @@ enum class Hiding {
     solids,    ///< all but veils, whose transmittance is left to the gather
 };
 
+/// Stages that bring the light of shared lights make lists and use them at once, so that one object, with its
+/// device memory, serves all of them.
 class SharedLightLists {
   public:
     /// Begins to compile the kernels. `kernel` is that of the gather.

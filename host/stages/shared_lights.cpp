@@ -5,20 +5,19 @@
 
 namespace nearlight::core {
 
-SharedLights::SharedLights(Device& device, GatherKernel kernel)
-    : lists_(device, kernel),
-      program_(device, "shared_lights.cl", kViewProgram),
+SharedLights::SharedLights(Device& device)
+    : program_(device, "shared_lights.cl", kViewProgram),
       gather_(program_, "shared_light_gather"),
       no_curves_(device, 0) {}
 
-void SharedLights::add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+void SharedLights::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                        Buffer<IrradiancePacket>& irradiance) {
     const float radius = batch.settings.clamp_radius;
-    lists_.make(batch, radius, found, NEARLIGHT_SHARED_LIGHTS);
+    lists.make(batch, radius, found, NEARLIGHT_SHARED_LIGHTS);
     const Buffer<float>* curves = batch.scene.curves_in_use();
     gather_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.receivers,
                          static_cast<uint>(batch.packet_count), found,
-                         curves != nullptr ? *curves : no_curves_, radius * radius, lists_, irradiance);
+                         curves != nullptr ? *curves : no_curves_, radius * radius, lists, irradiance);
 }
 
 }  // namespace nearlight::core

@@ -9,17 +9,16 @@ namespace nearlight::core {
 
 class SharedLights {
   public:
-    /// Begins to compile the kernels. `kernel` is that of the gather.
-    SharedLights(Device& device, GatherKernel kernel);
+    /// Begins to compile the kernel.
+    explicit SharedLights(Device& device);
 
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what those of its bundle bring: an
     /// unbiased estimate of what ReceiverPaths::run_sharing() left to found.near with the same settings. The
-    /// tree of the scene must be uploaded for the gather kernel.
-    void add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+    /// tree of the scene must be uploaded for the kernel of `lists`, which are made anew.
+    void add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
              Buffer<IrradiancePacket>& irradiance);
 
   private:
-    SharedLightLists lists_;
     Program program_;
     Kernel gather_;
     Buffer<float> no_curves_;

@@ -8,17 +8,16 @@
 
 namespace nearlight::core {
 
-SharedReflections::SharedReflections(Device& device, GatherKernel kernel)
-    : lists_(device, kernel),
-      program_(device, "shared_reflections.cl", kViewProgram),
+SharedReflections::SharedReflections(Device& device)
+    : program_(device, "shared_reflections.cl", kViewProgram),
       gather_(program_, "shared_reflection_gather") {}
 
-void SharedReflections::add(const ReceiverBatch& batch, const FoundLights& found,
+void SharedReflections::add(const ReceiverBatch& batch, SharedLightLists& lists, const FoundLights& found,
                             Buffer<IrradiancePacket>& irradiance) {
-    lists_.make(batch, std::numeric_limits<float>::infinity(), found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
+    lists.make(batch, std::numeric_limits<float>::infinity(), found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
     const auto packets = static_cast<uint>(batch.packet_count);
     gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, batch.receivers, packets,
-                         found.reflected, found.reflections, found.spacing, lists_, irradiance);
+                         found.reflected, found.reflections, found.spacing, lists, irradiance);
 }
 
 }  // namespace nearlight::core

@@ -9,16 +9,16 @@ namespace nearlight::core {
 
 class SharedReflections {
   public:
-    /// Begins to compile the kernels. `kernel` is that of the gather.
-    SharedReflections(Device& device, GatherKernel kernel);
+    /// Begins to compile the kernel.
+    explicit SharedReflections(Device& device);
 
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
     /// left to the reflections of `found`, with settings.shares_reflections: unbiased estimates. The tree of
-    /// the scene must be uploaded for the gather kernel.
-    void add(const ReceiverBatch& batch, const FoundLights& found, Buffer<IrradiancePacket>& irradiance);
+    /// the scene must be uploaded for the kernel of `lists`, which are made anew.
+    void add(const ReceiverBatch& batch, SharedLightLists& lists, const FoundLights& found,
+             Buffer<IrradiancePacket>& irradiance);
 
   private:
-    SharedLightLists lists_;
     Program program_;
     Kernel gather_;
 };

@@ -17,18 +17,17 @@ struct SeenSurfaces {
 
 class SharedSky {
   public:
-    /// Begins to compile the kernels. `kernel` is that of the gather.
-    SharedSky(Device& device, GatherKernel kernel);
+    /// Begins to compile the kernel.
+    explicit SharedSky(Device& device);
 
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
     /// left to found.sky, and to the vertices what the camera pass with the same rays left of the light that
     /// surfaces reflect other than diffusely: unbiased estimates. The tree of the scene must be uploaded for
-    /// the gather kernel.
-    void add(const ReceiverBatch& batch, const Buffer<SharedLight>& found, const SeenSurfaces& seen,
-             Buffer<IrradiancePacket>& irradiance);
+    /// the kernel of `lists`, which are made anew.
+    void add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
+             const SeenSurfaces& seen, Buffer<IrradiancePacket>& irradiance);
 
   private:
-    SharedLightLists lists_;
     Program program_;
     Kernel gather_;
 };

@@ -8,18 +8,16 @@
 
 namespace nearlight::core {
 
-SharedVeiled::SharedVeiled(Device& device, GatherKernel kernel)
-    : lists_(device, kernel),
-      program_(device, "shared_veiled.cl", kViewProgram),
-      gather_(program_, "shared_veiled_gather") {}
+SharedVeiled::SharedVeiled(Device& device)
+    : program_(device, "shared_veiled.cl", kViewProgram), gather_(program_, "shared_veiled_gather") {}
 
-void SharedVeiled::add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+void SharedVeiled::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                        Buffer<IrradiancePacket>& irradiance) {
-    lists_.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_VEILED_LIGHTS,
-                Hiding::solids);
+    lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_VEILED_LIGHTS,
+               Hiding::solids);
     const auto packets = static_cast<uint>(batch.packet_count);
     gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, VeilsForRays{batch.scene},
-                         batch.receivers, packets, found, lists_, irradiance);
+                         batch.receivers, packets, found, lists, irradiance);
 }
 
 }  // namespace nearlight::core

@@ -9,17 +9,16 @@ namespace nearlight::core {
 
 class SharedVeiled {
   public:
-    /// Begins to compile the kernels. `kernel` is that of the gather.
-    SharedVeiled(Device& device, GatherKernel kernel);
+    /// Begins to compile the kernel.
+    explicit SharedVeiled(Device& device);
 
     /// Adds to the irradiance (W/m²) of each receiver that shares lights what ReceiverPaths::run_sharing()
     /// left to found.veiled, with settings.shares_veiled: unbiased estimates. The tree of the scene must be
-    /// uploaded for the gather kernel.
-    void add(const ReceiverBatch& batch, const Buffer<SharedLight>& found,
+    /// uploaded for the kernel of `lists`, which are made anew.
+    void add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
              Buffer<IrradiancePacket>& irradiance);
 
   private:
-    SharedLightLists lists_;
     Program program_;
     Kernel gather_;
 };

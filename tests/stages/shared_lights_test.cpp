@@ -165,10 +165,10 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
             const DeviceScene on_device = upload_scene(device, scene, bvh, kernel);
             Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
             irradiance.fill_zero();
-            SharedLights(device, kernel)
-                .add({on_device, Buffer<ReceiverPacket>(device, data.receivers), data.receivers.size(),
-                      settings},
-                     Buffer<SharedLight>(device, data.found), irradiance);
+            SharedLightLists lists(device, kernel);
+            SharedLights(device).add(
+                {on_device, Buffer<ReceiverPacket>(device, data.receivers), data.receivers.size(), settings},
+                lists, Buffer<SharedLight>(device, data.found), irradiance);
             const std::vector<IrradiancePacket> found = irradiance.download();
             for (std::size_t i = 0; i < wanted.size(); ++i) {
                 const Vec3 difference = irradiance_at(found, i) - wanted[i];

@@ -96,7 +96,8 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
     FoundLights found(device, packets, {.shares_sky = true});
     CameraPass camera_pass(device);
     ReceiverPaths paths(device);
-    SharedSky sky(device, search.kernel);
+    SharedLightLists lists(device, search.kernel);
+    SharedSky sky(device);
     Light light{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
                 std::vector<double>(count)};
     for (int seed = 0; seed < search.seeds; ++seed) {
@@ -110,7 +111,8 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
         const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
             paths.run_sharing(batch, direct, indirect, found);
-            sky.add(batch, found.sky, {.surfaces = seen, .vertices = vertices, .rays = search.rays}, direct);
+            sky.add(batch, lists, found.sky, {.surfaces = seen, .vertices = vertices, .rays = search.rays},
+                    direct);
         } else {
             paths.run(batch, direct, indirect);
         }

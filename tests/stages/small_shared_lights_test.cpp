@@ -45,18 +45,18 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
     FoundLights found(device, packets.size(), settings);
     const ReceiverBatch batch{on_device, receivers, packets.size(), settings};
     ReceiverPaths(device).run_sharing(batch, direct, indirect, found);
-    SharedLights(device, kernel).add(batch, found.near, indirect);
-    SharedReflections(device, kernel).add(batch, found, indirect);
-    SharedVeiled(device, kernel).add(batch, found.veiled, indirect);
+    SharedLightLists lists(device, kernel);
+    SharedLights(device).add(batch, lists, found.near, indirect);
+    SharedReflections(device).add(batch, lists, found, indirect);
+    SharedVeiled(device).add(batch, lists, found.veiled, indirect);
     Numbers numbers = numbers_of(indirect.download());
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     const SeenSurface seen{
         .triangle = 4, .u = 0.3f, .v = 0.3f, .model = 0.5f, .direction = {0, -1, 0}, .light_samples = 1};
     Buffer<CameraVertex> vertices(device, std::vector(count, CameraVertex{}));
-    SharedSky(device, kernel)
-        .add(batch, found.sky,
-             {.surfaces = Buffer<SeenSurface>(device, std::vector(count, seen)), .vertices = vertices},
-             direct);
+    SharedSky(device).add(
+        batch, lists, found.sky,
+        {.surfaces = Buffer<SeenSurface>(device, std::vector(count, seen)), .vertices = vertices}, direct);
     for (const Numbers& more : {numbers_of(direct.download()), emitted_by(vertices.download())}) {
         numbers.insert(numbers.end(), more.begin(), more.end());
     }

@@ -44,9 +44,10 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
     Buffer<IrradiancePacket> indirect(device, packets.size());
     FoundLights found(device, packets.size(), settings);
     ReceiverPaths paths(device);
-    SharedLights lights(device, kernel);
-    SharedReflections reflections(device, kernel);
-    SharedVeiled veiled(device, kernel);
+    SharedLightLists lists(device, kernel);
+    SharedLights lights(device);
+    SharedReflections reflections(device);
+    SharedVeiled veiled(device);
     const std::size_t count = packets.size() * NEARLIGHT_PACKET_SIZE;
     Brought result{std::vector<double>(count), std::vector<double>(count)};
     for (uint seed = 0; seed < seeds; ++seed) {
@@ -54,12 +55,12 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
         const ReceiverBatch batch{on_device, receivers, packets.size(), settings};
         if (shared) {
             paths.run_sharing(batch, direct, indirect, found);
-            lights.add(batch, found.near, indirect);
+            lights.add(batch, lists, found.near, indirect);
             if (settings.shares_reflections) {
-                reflections.add(batch, found, indirect);
+                reflections.add(batch, lists, found, indirect);
             }
             if (settings.shares_veiled) {
-                veiled.add(batch, found.veiled, indirect);
+                veiled.add(batch, lists, found.veiled, indirect);
             }
         } else {
             paths.run(batch, direct, indirect);
