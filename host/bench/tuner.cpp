@@ -109,8 +109,8 @@ Work picture_work(Device& device, const Room& room) {
     return {[state, &room] {
                 State& s = *state;
                 const DeviceScene& scene = room.session.device_scene();
-                s.camera_pass.run(scene, s.camera, room.view.camera.width, s.close_range, s.band, 1,
-                                  s.receivers, s.vertices);
+                s.camera_pass.run({scene, s.camera, room.view.camera.width, s.close_range, s.band, 1},
+                                  {s.receivers, s.vertices});
                 s.receiver_paths.run({scene,
                                       s.receivers,
                                       s.packets,

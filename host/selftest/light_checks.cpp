@@ -136,8 +136,13 @@ void check_camera_pass(Device& device, CheckResult& result) {
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
-    CameraPass(device).run(on_device, Buffer<Camera>(device, std::span(&camera, 1)), camera.width,
-                           Buffer<CloseRange>(device, std::span(&region, 1)), band, 1, receivers, vertices);
+    CameraPass(device).run({.scene = on_device,
+                            .camera = Buffer<Camera>(device, std::span(&camera, 1)),
+                            .width = camera.width,
+                            .close_range = Buffer<CloseRange>(device, std::span(&region, 1)),
+                            .band = band,
+                            .seed = 1},
+                           {receivers, vertices});
     const CameraComparison comparison =
         compare_with_embree(scene, camera, region, receivers.download(), vertices.download());
     result.cases = comparison.receivers + comparison.absent;

@@ -57,7 +57,7 @@ std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, cons
     const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, receivers, vertices);
+    camera_pass.run({scene, camera_buffer, small.width, close_range, band, seed}, {receivers, vertices});
     const std::vector<ReceiverPacket> found = receivers.download();
     std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
     for (std::size_t i = 0; i < packets; ++i) {

@@ -186,8 +186,8 @@ void BandRenderer::trace_receivers(std::size_t packets) {
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
     const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
-    stages_.camera_pass.run(scene_, camera_, width, close_range_, batch, picture_.seed, buffers_.receivers,
-                            buffers_.vertices, &buffers_.seen);
+    stages_.camera_pass.run({scene_, camera_, width, close_range_, batch, picture_.seed},
+                            {buffers_.receivers, buffers_.vertices, &buffers_.seen});
     trace_receivers(packets);
     const bool finished = gather_vpls(batch, progress);
     if (finished) {

@@ -35,19 +35,17 @@ CameraPass::CameraPass(Device& device)
       camera_pass_(program_, "camera_pass"),
       none_seen_(device, 0) {}
 
-void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
-                     const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
-                     Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,
-                     Buffer<SeenSurface>* seen) {
-    const std::size_t sample_packets = packet_count(band, width) / band.branch_count;
+void CameraPass::run(const CameraPassInput& input, const CameraPassOutput& output) {
+    const CameraBand& band = input.band;
+    const std::size_t sample_packets = packet_count(band, input.width) / band.branch_count;
     const CameraPassParams params{
-        .order = packet_order(band, width),
+        .order = packet_order(band, input.width),
         .first_tile_column = band.first_tile_column,
         .first_tile_row = band.first_tile_row,
         .tile_row_count = whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
         .first_sample = band.first_sample,
         .sequence_length = band.samples_per_pixel,
-        .seed = seed,
+        .seed = input.seed,
         .limits = {.max_edges = band.max_depth,
                    .light_samples = band.light_samples,
                    .light_rays = band.light_rays,
@@ -55,8 +53,9 @@ void CameraPass::run(const DeviceScene& scene, const Buffer<Camera>& camera, uin
                    .bundle_rays = band.sky_rays * NEARLIGHT_SKY_RAYS},
         .pad0 = 0,
         .pad1 = 0};
-    camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, scene, camera, close_range, params,
-                              receivers, vertices, seen != nullptr ? *seen : none_seen_);
+    camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, input.scene, input.camera,
+                              input.close_range, params, output.receivers, output.vertices,
+                              output.seen != nullptr ? *output.seen : none_seen_);
 }
 
 }  // namespace nearlight::core

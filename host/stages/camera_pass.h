@@ -43,17 +43,30 @@ PacketOrder packet_order(const CameraBand& band, uint width);
 /// bundles.
 std::size_t packet_count(const CameraBand& band, uint width);
 
+/// What the camera pass looks at. `camera` and `close_range` hold one element each.
+struct CameraPassInput {
+    const DeviceScene& scene;
+    const Buffer<Camera>& camera;
+    uint width;  ///< of the columns of tiles, in pixels
+    const Buffer<CloseRange>& close_range;
+    CameraBand band;
+    uint seed = 0;
+};
+
+/// What the camera pass writes: packet_count() packets and 64 vertices for each of them, in the order that
+/// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedSky::add() must know of
+/// the surfaces, one entry for each vertex.
+struct CameraPassOutput {
+    Buffer<ReceiverPacket>& receivers;
+    Buffer<CameraVertex>& vertices;
+    Buffer<SeenSurface>* seen = nullptr;
+};
+
 class CameraPass {
   public:
     explicit CameraPass(Device& device);
 
-    /// Writes packet_count() packets and 64 vertices for each of them, in the order that
-    /// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedSky::add() must
-    /// know of the surfaces, one entry for each vertex.
-    void run(const DeviceScene& scene, const Buffer<Camera>& camera, uint width,
-             const Buffer<CloseRange>& close_range, const CameraBand& band, uint seed,
-             Buffer<ReceiverPacket>& receivers, Buffer<CameraVertex>& vertices,
-             Buffer<SeenSurface>* seen = nullptr);
+    void run(const CameraPassInput& input, const CameraPassOutput& output);
 
   private:
     Program program_;

@@ -127,7 +127,7 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run(scene, camera_buffer, small.width, close_range, band, seed, view.receivers, vertices);
+    camera_pass.run({scene, camera_buffer, small.width, close_range, band, seed}, {view.receivers, vertices});
     const std::vector<ReceiverPacket> packets = view.receivers.download();
     view.distances = receiver_distances(packets, small.origin);
     set_importons(device, view, make_importons(packets, vertices.download()));

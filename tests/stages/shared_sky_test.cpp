@@ -106,8 +106,8 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
                                             .clamp_radius = 0.1f,
                                             .seed = 50u + static_cast<uint>(seed),
                                             .shares_sky = true};
-        camera_pass.run(on_device, cameras, static_cast<uint>(kSide), regions, band, settings.seed, receivers,
-                        vertices, &seen);
+        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, band, settings.seed},
+                        {receivers, vertices, &seen});
         const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
             paths.run_sharing(batch, direct, indirect, found);

@@ -46,9 +46,13 @@ TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
         const std::size_t packets = packet_count(band, camera.width);
         Buffer<ReceiverPacket> receivers(device, packets);
         Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
-        CameraPass(device).run(scene.buffers, Buffer<Camera>(device, std::span(&camera, 1)), camera.width,
-                               Buffer<CloseRange>(device, std::span(&region, 1)), band, 1, receivers,
-                               vertices);
+        CameraPass(device).run({.scene = scene.buffers,
+                                .camera = Buffer<Camera>(device, std::span(&camera, 1)),
+                                .width = camera.width,
+                                .close_range = Buffer<CloseRange>(device, std::span(&region, 1)),
+                                .band = band,
+                                .seed = 1},
+                               {receivers, vertices});
         Buffer<IrradiancePacket> direct(device, packets);
         Buffer<IrradiancePacket> indirect(device, packets);
         ReceiverPaths(device).run(

@@ -34,7 +34,7 @@ class Shooting {
         const std::size_t packets = packet_count(band, camera.width);
         Buffer<ReceiverPacket> receivers(*device_, packets);
         Buffer<CameraVertex> vertices(*device_, packets * NEARLIGHT_PACKET_SIZE);
-        pass_.run(scene_.buffers, cameras_, camera.width, regions_, band, seed, receivers, vertices);
+        pass_.run({scene_.buffers, cameras_, camera.width, regions_, band, seed}, {receivers, vertices});
         return {receivers.download(), vertices.download()};
     }
     /// Renders all rows, with all `samples` samples.
