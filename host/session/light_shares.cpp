@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "host/base/cosine_direction.h"
 #include "host/base/random.h"
 #include "host/scene/emitters.h"
 #include "host/scene/environment_map.h"
@@ -188,13 +189,8 @@ class ShareMaker {
             return map.radiance[pixel.row * std::size_t{shape.width} + pixel.column];
         };
         const Mat4 to_local = inverse(map.to_world);
-        const auto [right, up] = orthonormal_basis(point_.normal);
         for (std::size_t i = 0; i < kEnvironmentSamples; ++i) {
-            const float square = random_.uniform();
-            const float angle = 2.0f * kPi * random_.uniform();
-            const Vec3 direction = normalize(right * (std::sqrt(square) * std::cos(angle)) +
-                                             up * (std::sqrt(square) * std::sin(angle)) +
-                                             point_.normal * std::sqrt(std::max(1.0f - square, 0.0f)));
+            const Vec3 direction = normalize(cosine_direction(point_.normal, random_));
             const Vec3 local = normalize(transform_vector(to_local, direction));
             probes_.push_back({.ray = {start_, 0.0f, direction, kInfinity},
                                .share = share,
