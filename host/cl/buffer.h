@@ -102,4 +102,12 @@ class Buffer {
     cl::Buffer handle_;
 };
 
+/// Replaces the buffer by one of `count` elements if it has fewer or was never made. What was in it is lost.
+template <typename T>
+void ensure_room(Buffer<T>& buffer, Device& device, std::size_t count) {
+    if (buffer.count() < count || buffer.handle()() == nullptr) {
+        buffer = Buffer<T>(device, count);
+    }
+}
+
 }  // namespace nearlight::core

@@ -26,9 +26,7 @@ std::size_t Compaction::list_set(const Buffer<uint>& flags, std::size_t count, B
     const uint n = to_kernel_count(count, "flags");
     const Chunks chunks = split_into_chunks(*device_, count);
     const std::size_t local_size = chunk_local_size(*device_);
-    if (chunk_counts_.count() < chunks.count) {
-        chunk_counts_ = Buffer<uint>(*device_, chunks.count);
-    }
+    ensure_room(chunk_counts_, *device_, chunks.count);
     count_.launch(chunks.count, local_size, flags, chunk_counts_, n, chunks.size, chunks.count);
     scan_.exclusive(chunk_counts_, chunk_counts_, chunks.count);
     write_.launch(chunks.count, local_size, flags, chunk_counts_, indices, n, chunks.size, chunks.count);

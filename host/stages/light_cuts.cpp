@@ -80,13 +80,10 @@ const VplLists& LightCuts::choose(const CutTask& task, std::size_t first_bundle,
     const std::size_t bundles = end_bundle - first_bundle;
     const std::size_t capacity = capacity_of(task);
     const std::size_t stride = stride_of(task);
-    if (entries_.count() < bundles * 2 * capacity || lists_.vpls.count() < bundles * stride ||
-        lists_.lengths.count() < bundles) {
-        entries_ = Buffer<CutEntry>(*device_, bundles * 2 * capacity);
-        lists_.vpls = Buffer<uint>(*device_, bundles * stride);
-        lists_.weights = Buffer<float>(*device_, bundles * stride);
-        lists_.lengths = Buffer<uint>(*device_, bundles);
-    }
+    ensure_room(entries_, *device_, bundles * 2 * capacity);
+    ensure_room(lists_.vpls, *device_, bundles * stride);
+    ensure_room(lists_.weights, *device_, bundles * stride);
+    ensure_room(lists_.lengths, *device_, bundles);
     lists_.first_bundle = static_cast<uint>(first_bundle);
     lists_.stride = static_cast<uint>(stride);
     const CutParams params{.first_root = task.tree.first_root(),

@@ -18,13 +18,6 @@ Chunks split_for_sort(const Device& device, std::size_t count) {
     return split_into_chunks(device, count, device.tunables().shortest_sort_run);
 }
 
-template <typename T>
-void ensure_room(Buffer<T>& buffer, Device& device, std::size_t count) {
-    if (buffer.count() < count) {
-        buffer = Buffer<T>(device, count);
-    }
-}
-
 }  // namespace
 
 MortonSort::MortonSort(Device& device)

@@ -22,9 +22,7 @@ class MortonSort {
     /// the device.
     template <typename T>
     void order(const Buffer<T>& elements, std::size_t count, Buffer<uint>& order) {
-        if (codes_.count() < count) {
-            codes_ = Buffer<uint>(*device_, count);
-        }
+        ensure_room(codes_, *device_, count);
         codes(elements, count, bounds(elements, count), codes_, order);
         sort(codes_, order, count);
     }

@@ -63,9 +63,7 @@ void PrefixScan<T>::scan_level(const Buffer<T>& input, Buffer<T>& output, uint c
     }
     // The sums are moved out of the vector because the deeper level may make it grow.
     Buffer<T> sums = std::move(chunk_sums_[level]);
-    if (sums.count() < chunks.count) {
-        sums = Buffer<T>(*device_, chunks.count);
-    }
+    ensure_room(sums, *device_, chunks.count);
     reduce_.launch(chunks.count, local_size, input, sums, count, chunks.size, chunks.count);
     scan_level(sums, sums, chunks.count, false, level + 1);
     scan_from(sums);

@@ -38,12 +38,10 @@ const VplLists& Roulette::choose(const RouletteTask& task, std::size_t first_bun
     const VplStrata& strata = strata_of(task);
     const auto stride = static_cast<uint>(strata.max_size(task.vpl_count));
     const std::size_t entries = bundles * stride;
-    if (bounds_.count() < entries || lists_.lengths.count() < bundles) {
-        bounds_ = Buffer<float>(*device_, entries);
-        lists_.vpls = Buffer<uint>(*device_, entries);
-        lists_.weights = Buffer<float>(*device_, entries);
-        lists_.lengths = Buffer<uint>(*device_, bundles);
-    }
+    ensure_room(bounds_, *device_, entries);
+    ensure_room(lists_.vpls, *device_, entries);
+    ensure_room(lists_.weights, *device_, entries);
+    ensure_room(lists_.lengths, *device_, bundles);
     const auto vpl_count = static_cast<uint>(task.vpl_count);
     const auto packet_count = static_cast<uint>(task.packet_count);
     lists_.stride = stride;

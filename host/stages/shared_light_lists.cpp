@@ -27,14 +27,12 @@ SharedLightLists::SharedLightLists(Device& device, GatherKernel kernel)
       visibility_(visibility_kernel(device, kernel_)),
       next_bundle_(device, 1) {}
 
-void SharedLightLists::resize(std::size_t bundle_count) {
-    if (lengths_.count() < bundle_count) {
-        const std::size_t entries = bundle_count * NEARLIGHT_SHARED_LIST;
-        listed_ = Buffer<uint>(*device_, entries);
-        factors_ = Buffer<float>(*device_, entries);
-        lengths_ = Buffer<uint>(*device_, bundle_count);
-        seen_by_ = Buffer<uint>(*device_, entries * kMaskWords);
-    }
+void SharedLightLists::make_room(std::size_t bundle_count) {
+    const std::size_t entries = bundle_count * NEARLIGHT_SHARED_LIST;
+    ensure_room(listed_, *device_, entries);
+    ensure_room(factors_, *device_, entries);
+    ensure_room(lengths_, *device_, bundle_count);
+    ensure_room(seen_by_, *device_, entries * kMaskWords);
 }
 
 void SharedLightLists::make(const ReceiverBatch& batch, float radius, const Buffer<SharedLight>& found,
@@ -43,7 +41,7 @@ void SharedLightLists::make(const ReceiverBatch& batch, float radius, const Buff
     const ReceiverPathSettings& settings = batch.settings;
     const auto packets = static_cast<uint>(batch.packet_count);
     const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
-    resize(bundle_count);
+    make_room(bundle_count);
     choose_.launch_items(bundle_count, batch.receivers, packets, found, count, settings.seed, listed_,
                          factors_, lengths_);
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,

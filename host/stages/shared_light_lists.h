@@ -38,7 +38,7 @@ class SharedLightLists {
     }
 
   private:
-    void resize(std::size_t bundle_count);
+    void make_room(std::size_t bundle_count);
 
     Device* device_;
     GatherKernel kernel_;  ///< never `automatic`

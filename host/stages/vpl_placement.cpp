@@ -25,9 +25,7 @@ VplPlacement::VplPlacement(Device& device)
 void VplPlacement::set_surface(const Buffer<float>& areas, const Buffer<uint>& ids, std::size_t count,
                                float units_per_square_metre) {
     triangle_count_ = count;
-    if (area_sums_.count() < count) {
-        area_sums_ = Buffer<std::uint64_t>(*device_, count);
-    }
+    ensure_room(area_sums_, *device_, count);
     areas_.launch_items(count, areas, ids, area_sums_, units_per_square_metre,
                         to_kernel_count(count, "triangles"));
     scan_.inclusive(area_sums_, area_sums_, count);
