@@ -46,18 +46,12 @@ std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
     const std::size_t slot_count = 2 * point_count;
     Buffer<SurfaceSample> samples(stages_.device, point_count);
     Buffer<Vpl> slots(stages_.device, slot_count);
-    Buffer<Vpl> kept(stages_.device, slot_count);
     Buffer<uint> flags(stages_.device, slot_count);
-    Buffer<uint> indices(stages_.device, slot_count);
     const auto area_per_point = static_cast<float>(area_ / static_cast<double>(point_count));
     stages_.vpl_placement.place(scene.vertices, scene.triangles, ids_, region_.range, region_.whole_triangles,
                                 point_count, seed, samples);
     stages_.patch_vpls.run(scene, samples, point_count, region_, area_per_point, slots, flags);
-    const std::size_t kept_count = stages_.compaction.list_set(flags, slot_count, indices);
-    stages_.compaction.gather(slots, indices, kept_count, kept);
-    std::vector<Vpl> vpls(kept_count);
-    kept.download(vpls);
-    return vpls;
+    return stages_.compaction.download_set(slots, flags, slot_count);
 }
 
 }  // namespace nearlight::core

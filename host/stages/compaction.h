@@ -2,6 +2,8 @@
 // Keeps the elements whose flag is set, in their order. The kernels are in compaction.cl.
 #pragma once
 
+#include <vector>
+
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "host/stages/prefix_scan.h"
@@ -25,6 +27,18 @@ class Compaction {
         static_assert(sizeof(T) % sizeof(uint) == 0, "elements are moved in words of 4 bytes");
         gather_.launch_items(count, elements, indices, gathered, static_cast<uint>(sizeof(T) / sizeof(uint)),
                              static_cast<uint>(count));
+    }
+
+    /// Returns the elements, of the first `count`, whose flags are not 0, in their order. Waits for the
+    /// device.
+    template <typename T>
+    std::vector<T> download_set(const Buffer<T>& elements, const Buffer<uint>& flags, std::size_t count) {
+        Buffer<uint> indices(*device_, count);
+        std::vector<T> result(list_set(flags, count, indices));
+        Buffer<T> kept(*device_, result.size());
+        gather(elements, indices, result.size(), kept);
+        kept.download(result);
+        return result;
     }
 
     /// The device memory that list_set() keeps for itself, in bytes.

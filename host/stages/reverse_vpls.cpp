@@ -25,16 +25,10 @@ ReverseVpls::ReverseVpls(Device& device, Gatherer& gatherer)
 std::vector<Vpl> ReverseVpls::trace(const DeviceScene& scene, const CameraPoints& points, uint seed) {
     const std::size_t ray_count = std::size_t{points.count} * points.rays_per_point;
     Buffer<Vpl> slots(*device_, ray_count);
-    Buffer<Vpl> kept(*device_, ray_count);
     Buffer<uint> flags(*device_, ray_count);
-    Buffer<uint> indices(*device_, ray_count);
     reverse_vpls_.launch_items(ray_count, scene, points.points, points.count, points.rays_per_point, seed,
                                slots, flags);
-    const std::size_t kept_count = compaction_.list_set(flags, ray_count, indices);
-    compaction_.gather(slots, indices, kept_count, kept);
-    std::vector<Vpl> vpls(kept_count);
-    kept.download(vpls);
-    return vpls;
+    return compaction_.download_set(slots, flags, ray_count);
 }
 
 void ReverseVpls::measure_density(const DeviceScene& scene, const CameraPoints& points,
