@@ -27,6 +27,14 @@ inline ReceiverPoint receiver_at(const ReceiverPacket& packet, std::size_t lane)
 inline ReceiverPoint receiver_at(std::span<const ReceiverPacket> packets, std::size_t index) {
     return receiver_at(packets[index / NEARLIGHT_PACKET_SIZE], index % NEARLIGHT_PACKET_SIZE);
 }
+/// How many receivers of the packet are not absent.
+inline std::size_t present_count(const ReceiverPacket& packet) {
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+        count += is_zero(receiver_at(packet, lane).normal) ? 0 : 1;
+    }
+    return count;
+}
 inline void set_receiver(ReceiverPacket& packet, std::size_t lane, const ReceiverPoint& receiver) {
     packet.px[lane] = receiver.position.x;
     packet.py[lane] = receiver.position.y;

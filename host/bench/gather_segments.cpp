@@ -84,9 +84,7 @@ std::uint64_t count_bits(std::span<const std::uint64_t> mask) {
 std::uint64_t count_pairs(const GatherSegments& segments) {
     std::uint64_t present = 0;
     for (const ReceiverPacket& packet : segments.receivers) {
-        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            present += is_zero(receiver_at(packet, lane).normal) ? 0 : 1;
-        }
+        present += present_count(packet);
     }
     return present * segments.vpls.size();
 }

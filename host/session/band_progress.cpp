@@ -61,9 +61,7 @@ std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, cons
     const std::vector<ReceiverPacket> found = receivers.download();
     std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
     for (std::size_t i = 0; i < packets; ++i) {
-        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            work[i * kStripCount / packets] += is_zero(receiver_at(found[i], lane).normal) ? 0.0 : 1.0;
-        }
+        work[i * kStripCount / packets] += static_cast<double>(present_count(found[i]));
     }
     return work;
 }

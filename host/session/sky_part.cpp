@@ -21,13 +21,11 @@ float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, c
     paths.run_sharing({scene, view.receivers, view.packet_count, settings}, direct, indirect, found);
     const std::vector<SharedLight> lights = found.sky.download();
     const auto met = std::ranges::count_if(lights, [](const SharedLight& light) { return light.weight > 0; });
-    std::ptrdiff_t present = 0;
+    std::size_t present = 0;
     for (const ReceiverPacket& packet : view.receivers.download()) {
-        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-            present += receiver_at(packet, lane).normal == Vec3{0, 0, 0} ? 0 : 1;
-        }
+        present += present_count(packet);
     }
-    return static_cast<float>(met) / static_cast<float>(std::max<std::ptrdiff_t>(present, 1));
+    return static_cast<float>(met) / static_cast<float>(std::max<std::size_t>(present, 1));
 }
 
 }  // namespace nearlight::core
