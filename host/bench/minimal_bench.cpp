@@ -148,9 +148,7 @@ bool check_picture(Device& device, const Workload& work, SamplerKind sampler) {
         }
     };
     Session session(device, work.scene);
-    const RenderReport report = render(
-        session, settings, [](const RenderReport&, const View&, const VplSet&) {}, take_rows,
-        [](const std::string&, double) { return true; });
+    const RenderReport report = render(session, settings, {.rows = take_rows});
     const bool good = finite && sum > 0.0;
     std::printf("picture by %s: %s, %zu close and %zu distant VPLs, %.2f s, mean %.5f, hash %s\n",
                 to_string(sampler).c_str(), good ? "good" : "BAD", report.totals.close_vpls,

@@ -270,19 +270,18 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     // The file of a frame says that it is finished, so none is there before.
     const PassWatcher watcher =
         run.frame ? PassWatcher() : [&](const PassesSoFar& so_far) { keeper.watch(so_far); };
-    RenderReport report = render(
-        session, run.settings,
-        [&](const RenderReport& started, const View& view, const VplSet& vpls) {
-            save(run.options.vpl_files, session, view, vpls);
-            sinks.open(run, started, view);
-        },
-        [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); },
-        [&](const std::string&, double fraction) {
-            notice.reset();
-            bar.update(fraction, seconds_left(run, since_begin));
-            return !interrupted();
-        },
-        tell_once(bar, run.settings), std::move(start.passes), watcher, start.vpls);
+    RenderHooks hooks{.forecast = tell_once(bar, run.settings), .watcher = watcher, .vpls = start.vpls};
+    hooks.start = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
+        save(run.options.vpl_files, session, view, vpls);
+        sinks.open(run, started, view);
+    };
+    hooks.rows = [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); };
+    hooks.progress = [&](const std::string&, double fraction) {
+        notice.reset();
+        bar.update(fraction, seconds_left(run, since_begin));
+        return !interrupted();
+    };
+    RenderReport report = render(session, run.settings, hooks, std::move(start.passes));
     bar.clear();
     if (!run.frame || !report.interrupted) {
         bar.start("counting mattes");

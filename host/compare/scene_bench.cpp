@@ -68,18 +68,17 @@ SceneBench::FirstLook SceneBench::look() {
     FirstLook found;
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
-    const RenderReport report = render(
-        session_, settings,
-        [&](const RenderReport&, const View& view, const VplSet& vpls) {
-            facts_.camera = view.scene_camera;
-            found.surface = !view.pilot.distances.empty();
-            found.close_vpls = settings.sampling.sampler != SamplerKind::close_range || vpls.close_count > 0;
-        },
-        [&](std::span<const float> rows) {
-            append_channels(rows, NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB, overview_.values);
-            append_channels(rows, NEARLIGHT_LAYER_DEPTH, NEARLIGHT_CHANNELS_Z, depths_);
-        },
-        go_on);
+    RenderHooks hooks{.progress = go_on};
+    hooks.start = [&](const RenderReport&, const View& view, const VplSet& vpls) {
+        facts_.camera = view.scene_camera;
+        found.surface = !view.pilot.distances.empty();
+        found.close_vpls = settings.sampling.sampler != SamplerKind::close_range || vpls.close_count > 0;
+    };
+    hooks.rows = [&](std::span<const float> rows) {
+        append_channels(rows, NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB, overview_.values);
+        append_channels(rows, NEARLIGHT_LAYER_DEPTH, NEARLIGHT_CHANNELS_Z, depths_);
+    };
+    const RenderReport report = render(session_, settings, hooks);
     facts_.range = report.range;
     facts_.max_depth = report.max_depth;
     facts_.setup = {report.seconds.build_bvh, report.seconds.compile};
@@ -134,12 +133,12 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
 std::optional<Shot> SceneBench::render_indirect(const RenderSettings& settings, const Progress& progress) {
     Shot shot{make_picture(settings_.width, settings_.height), {}};
     shot.indirect.values.clear();
-    shot.report = render(
-        session_, settings, [](const RenderReport&, const View&, const VplSet&) {},
-        [&](std::span<const float> rows) {
-            append_channels(rows, NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_CHANNELS_RGB, shot.indirect.values);
-        },
-        [&](const std::string&, double fraction) { return progress(fraction); });
+    RenderHooks hooks;
+    hooks.rows = [&](std::span<const float> rows) {
+        append_channels(rows, NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_CHANNELS_RGB, shot.indirect.values);
+    };
+    hooks.progress = [&](const std::string&, double fraction) { return progress(fraction); };
+    shot.report = render(session_, settings, hooks);
     return shot.report.interrupted ? std::nullopt : std::optional(std::move(shot));
 }
 

@@ -197,14 +197,13 @@ Picture render_picture(core::Session& session, const RenderSettings& settings, c
                        const core::VplMaker& vpls) {
     Picture picture;
     ImageFiller fill(picture.image);
-    const core::RenderReport report = core::render(
-        session, settings,
-        [&](const core::RenderReport& started, const core::View&, const core::VplSet&) {
-            picture.image = blank_picture(started.width, started.height);
-        },
-        [&](std::span<const float> rows) { fill(rows); },
-        [&](const std::string&, double fraction) { return !progress || progress(fraction); }, {}, {}, {},
-        vpls);
+    core::RenderHooks hooks{.vpls = vpls};
+    hooks.start = [&](const core::RenderReport& started, const core::View&, const core::VplSet&) {
+        picture.image = blank_picture(started.width, started.height);
+    };
+    hooks.rows = [&](std::span<const float> rows) { fill(rows); };
+    hooks.progress = [&](const std::string&, double fraction) { return !progress || progress(fraction); };
+    const core::RenderReport report = core::render(session, settings, hooks);
     picture.passes = report.passes;
     picture.vpl_count = report.totals.close_vpls + report.totals.distant_vpls;
     picture.interrupted = report.interrupted;

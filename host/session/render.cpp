@@ -30,12 +30,13 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
     }
 }
 
-void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
-                 const RowSink& sink, const GatherFraction& progress, const VplMaker& vpls,
+void render_once(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
                  RenderReport& report) {
-    const Prepared pass = prepare(session, settings, vpls, report);
-    start(report, pass.view, pass.vpls);
-    gather(session, pass, sink, progress, report);
+    const Prepared pass = prepare(session, settings, hooks.vpls, report);
+    hooks.start(report, pass.view, pass.vpls);
+    gather(
+        session, pass, hooks.rows, [&](double fraction) { return hooks.progress(kGathering, fraction); },
+        report);
 }
 
 }  // namespace
@@ -46,27 +47,24 @@ void add_beauty(std::span<const float> rows, Hasher& hasher) {
     }
 }
 
-RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast,
-                    PassStart pass_start, const PassWatcher& watcher, const VplMaker& vpls) {
+RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
+                    PassStart pass_start) {
     const bool keeps_sums = may_have_passes(settings) || !pass_start.is_plain();
     refuse_passes_of_a_file(settings, keeps_sums);
     RenderReport report = begin_report(session);
     const Stopwatch total;
     Hasher hasher;
-    const RowSink hash_and_send = [&](std::span<const float> rows) {
+    RenderHooks hashing = hooks;
+    hashing.rows = [&](std::span<const float> rows) {
         add_beauty(rows, hasher);
-        sink(rows);
+        hooks.rows(rows);
     };
-    const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
     if (keeps_sums) {
-        render_passes(session, settings,
-                      {start, hash_and_send, gathering, forecast, watcher, vpls, std::move(pass_start)},
-                      report);
+        render_passes(session, settings, hashing, std::move(pass_start), report);
     } else {
         const uint samples =
             settings.pass_samples.empty() ? settings.gather.samples_per_pixel : settings.pass_samples.front();
-        render_once(session, with_samples(settings, samples), start, hash_and_send, gathering, vpls, report);
+        render_once(session, with_samples(settings, samples), hashing, report);
     }
     report.image_hash = hasher.hash64();
     report.seconds.compile = session.new_compile_seconds();

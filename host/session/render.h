@@ -83,16 +83,25 @@ struct PassStart {
 /// Makes the VPLs of a pass, as Session::sample() else does. View, sampling and seed are those of the pass.
 using VplMaker = std::function<VplSet(const ViewSettings&, const SamplingSettings&, uint seed)>;
 
+/// What a render calls. Those that do nothing here may be left out.
+struct RenderHooks {
+    RenderStart start = [](const RenderReport&, const View&, const VplSet&) {};
+    RowSink rows = [](std::span<const float>) {};
+    RenderProgress progress = [](const std::string&, double) { return true; };
+    ForecastSink forecast{};
+    PassWatcher watcher{};
+    VplMaker vpls{};  ///< empty: Session::sample() makes them
+};
+
 /// Adds finished rows to RenderReport::image_hash.
 void add_beauty(std::span<const float> rows, Hasher& hasher);
 
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
 /// becomes the one of an uninterrupted render, to the bit; the report counts the passes of both, but the
-/// time, memory and devices of this one. The view and the VPLs that `start` gets are then of this render's
-/// first pass; if it made none, there are no VPLs.
-RenderReport render(Session& session, const RenderSettings& settings, const RenderStart& start,
-                    const RowSink& sink, const RenderProgress& progress, const ForecastSink& forecast = {},
-                    PassStart pass_start = {}, const PassWatcher& watcher = {}, const VplMaker& vpls = {});
+/// time, memory and devices of this one. The view and the VPLs that `hooks.start` gets are then of this
+/// render's first pass; if it made none, there are no VPLs.
+RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
+                    PassStart pass_start = {});
 
 }  // namespace nearlight::core

@@ -74,16 +74,15 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
     }
 }
 
-Passes begin_passes(Session& session, const RenderSettings& settings, PassesTask& task,
+Passes begin_passes(Session& session, const RenderSettings& settings, const VplMaker& vpls, PassStart start,
                     RenderReport& report) {
-    PassStart& start = task.pass_start;
     Passes passes{.schedule = PassSchedule(settings, report.seconds.total), .first = start.first};
     if (start.checkpoint) {
         resume(session, settings, std::move(*start.checkpoint), passes, report);
     }
     if (passes.first > 0 && !passes.choice) {
         RenderReport of_pass_0;
-        passes.choice = choice_of(prepare(session, settings, task.vpls, of_pass_0), settings);
+        passes.choice = choice_of(prepare(session, settings, vpls, of_pass_0), settings);
         report.seconds.generate += of_pass_0.seconds.generate;
     }
     return passes;
@@ -101,14 +100,14 @@ PassRecord record_of(const Passes& passes, uint seed, const RenderReport& report
             .pace = passes.schedule.pace()};
 }
 
-void tell(const PassesTask& task, Moment moment, const Passes& passes, const View& view, uint seed,
+void tell(const PassWatcher& watcher, Moment moment, const Passes& passes, const View& view, uint seed,
           const RenderReport& report) {
-    if (task.watcher) {
-        task.watcher({.moment = moment,
-                      .report = report,
-                      .view = passes.view ? *passes.view : view,
-                      .average = *passes.average,
-                      .record = [&] { return record_of(passes, seed, report); }});
+    if (watcher) {
+        watcher({.moment = moment,
+                 .report = report,
+                 .view = passes.view ? *passes.view : view,
+                 .average = *passes.average,
+                 .record = [&] { return record_of(passes, seed, report); }});
     }
 }
 
@@ -134,37 +133,37 @@ void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& pass
 /// What prepares and plans the pass after the present one while that is gathered; null if there is nobody who
 /// could begin with it, or if it is not certain yet.
 std::function<std::shared_ptr<PlannedPicture>()> preparation(Session& session, const RenderSettings& settings,
-                                                             const PassesTask& task, const Prepared& present,
+                                                             const VplMaker& vpls, const Prepared& present,
                                                              uint number, Passes& passes) {
     const uint samples = passes.schedule.sure_next_samples();
     if (samples == 0 || !session.looks_ahead()) {
         return {};
     }
     const PassChoice choice = passes.choice ? *passes.choice : choice_of(present, settings);
-    return [&session, &task, &passes, wanted = pass_settings(settings, number + 1, samples, choice)] {
-        passes.next = prepare(session, wanted, task.vpls);
+    return [&session, &vpls, &passes, wanted = pass_settings(settings, number + 1, samples, choice)] {
+        passes.next = prepare(session, wanted, vpls);
         passes.next->planned = session.plan(passes.next->view, passes.next->vpls, wanted.gather, wanted.seed);
         return passes.next->planned;
     };
 }
 
 /// Prepares the present pass, unless that was done already.
-Prepared begin_pass(Session& session, const RenderSettings& settings, const PassesTask& task, Passes& passes,
+Prepared begin_pass(Session& session, const RenderSettings& settings, const VplMaker& vpls, Passes& passes,
                     RenderReport& report) {
     if (std::optional<Prepared> ready = std::exchange(passes.next, std::nullopt)) {
         note_pass(*ready, report);
         return std::move(*ready);
     }
-    return prepare(session, settings, task.vpls, report);
+    return prepare(session, settings, vpls, report);
 }
 
 /// Makes a pass of `samples` per pixel. If it is the first and given up, nothing is left of it but its time.
-void make_pass(Session& session, const RenderSettings& settings, uint samples, const PassesTask& task,
+void make_pass(Session& session, const RenderSettings& settings, uint samples, const RenderHooks& hooks,
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
     const uint number = passes.first + report.passes;
-    Prepared pass =
-        begin_pass(session, pass_settings(settings, number, samples, passes.choice), task, passes, report);
+    Prepared pass = begin_pass(session, pass_settings(settings, number, samples, passes.choice), hooks.vpls,
+                               passes, report);
     passes.schedule.note_vpls();
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
     if (passes.begun_rows > 0) {
@@ -179,15 +178,15 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     const auto take_rows = [&](std::span<const float> rows) {
         passes.average->add_rows(rows);
         if (passes.average->begun_rows() < whole.height) {
-            tell(task, Moment::within_pass, passes, pass.view, settings.seed, report);
+            tell(hooks.watcher, Moment::within_pass, passes, pass.view, settings.seed, report);
         }
     };
     const auto go_on = [&](double fraction) {
         too_long = too_long || passes.schedule.is_too_long(fraction);
-        return !too_long && task.progress(passes.schedule.fraction(fraction));
+        return !too_long && hooks.progress(kGathering, passes.schedule.fraction(fraction));
     };
     gather(session, pass, take_rows, go_on, report,
-           preparation(session, settings, task, pass, number, passes));
+           preparation(session, settings, hooks.vpls, pass, number, passes));
     if (too_long && report.interrupted) {
         const RenderSeconds seconds = report.seconds;
         report = before;
@@ -197,7 +196,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     }
     if (passes.average->begun_rows() == whole.height) {
         end_pass(settings, pass, passes, report);
-        tell(task, Moment::between_passes, passes, pass.view, settings.seed, report);
+        tell(hooks.watcher, Moment::between_passes, passes, pass.view, settings.seed, report);
     }
     if (!passes.view) {
         passes.view = std::move(pass.view);
@@ -207,20 +206,21 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
 
 }  // namespace
 
-void render_passes(Session& session, const RenderSettings& settings, PassesTask task, RenderReport& report) {
-    Passes passes = begin_passes(session, settings, task, report);
+void render_passes(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
+                   PassStart start, RenderReport& report) {
+    Passes passes = begin_passes(session, settings, hooks.vpls, std::move(start), report);
     while (const std::optional<uint> samples = report.interrupted ? std::nullopt : passes.schedule.begin()) {
-        if (const auto expected = passes.schedule.forecast(); expected && task.forecast) {
-            task.forecast(*expected);
+        if (const auto expected = passes.schedule.forecast(); expected && hooks.forecast) {
+            hooks.forecast(*expected);
         }
-        make_pass(session, settings, *samples, task, passes, report);
+        make_pass(session, settings, *samples, hooks, passes, report);
     }
     if (settings.error && !passes.schedule.samples().empty()) {
         report.error = passes.average->error();
     }
-    tell(task, Moment::end, passes, *passes.view, settings.seed, report);
-    task.start(report, *passes.view, passes.vpls);
-    passes.average->send(task.sink);
+    tell(hooks.watcher, Moment::end, passes, *passes.view, settings.seed, report);
+    hooks.start(report, *passes.view, passes.vpls);
+    passes.average->send(hooks.rows);
 }
 
 }  // namespace nearlight::core

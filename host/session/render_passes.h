@@ -6,18 +6,8 @@
 
 namespace nearlight::core {
 
-/// The parameters of render().
-struct PassesTask {
-    const RenderStart& start;
-    const RowSink& sink;
-    const GatherFraction& progress;
-    const ForecastSink& forecast;
-    const PassWatcher& watcher;
-    const VplMaker& vpls;
-    PassStart pass_start;
-};
-
 /// Makes passes as a PassSchedule says, and sends their mean.
-void render_passes(Session& session, const RenderSettings& settings, PassesTask task, RenderReport& report);
+void render_passes(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
+                   PassStart start, RenderReport& report);
 
 }  // namespace nearlight::core

@@ -6,6 +6,9 @@
 
 namespace nearlight::core {
 
+/// The stage whose progress a render tells.
+inline constexpr const char* kGathering = "gathering";
+
 /// The products of look and sample, which a gather needs.
 struct Prepared {
     View view;

@@ -127,13 +127,14 @@ TEST_F(KeyVplsTest, MakeThePictureOfAnySampler) {
             KeyVpls vpls(settings.view);
             vpls.set_views({{.frame = 3, .camera = scene_.camera}});
             std::vector<float> pixels;
-            const RenderReport report = render(
-                session, settings, [](const RenderReport&, const View&, const VplSet&) {},
-                [&](std::span<const float> rows) { pixels.insert(pixels.end(), rows.begin(), rows.end()); },
-                [](const std::string&, double) { return true; }, {}, {}, {},
-                [&](const ViewSettings& view, const SamplingSettings& sampling, uint seed) {
-                    return vpls.make(session, view, sampling, seed);
-                });
+            RenderHooks hooks;
+            hooks.rows = [&](std::span<const float> rows) {
+                pixels.insert(pixels.end(), rows.begin(), rows.end());
+            };
+            hooks.vpls = [&](const ViewSettings& view, const SamplingSettings& sampling, uint seed) {
+                return vpls.make(session, view, sampling, seed);
+            };
+            const RenderReport report = render(session, settings, hooks);
             EXPECT_EQ(report.image_hash, plain.report.image_hash);
             EXPECT_EQ(pixels, plain.image.values);
         }

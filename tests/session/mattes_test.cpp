@@ -148,11 +148,12 @@ class MattesOfPicture {
         settings.gather.samples_per_pixel = 4;
         settings.passes = 3;
         settings.seed = 7;
-        const RenderReport report = render(
-            session_, settings,
-            [&](const RenderReport&, const View& view, const VplSet&) { camera_ = view.camera; },
-            [&](std::span<const float> rows) { picture_.insert(picture_.end(), rows.begin(), rows.end()); },
-            [](const std::string&, double) { return true; });
+        RenderHooks hooks;
+        hooks.start = [&](const RenderReport&, const View& view, const VplSet&) { camera_ = view.camera; };
+        hooks.rows = [&](std::span<const float> rows) {
+            picture_.insert(picture_.end(), rows.begin(), rows.end());
+        };
+        const RenderReport report = render(session_, settings, hooks);
         for (const uint samples : report.pass_samples) {
             const auto pass = static_cast<uint>(passes_.size());
             passes_.push_back({pass_seed(settings.seed, pass), samples});

@@ -143,7 +143,8 @@ TEST_F(Passes, AnInterruptedOneLeavesTheMeanOfThoseBefore) {
         Session session(device, scene);
         const RenderSettings settings = with_passes(test::few_vpls(), 4);
         const test::Rendering stopped = test::render_image(
-            session, settings, [](const std::string&, double fraction) { return fraction < 0.25; });
+            session, settings,
+            {.progress = [](const std::string&, double fraction) { return fraction < 0.25; }});
         EXPECT_TRUE(stopped.report.interrupted);
         // When the second pass begins, unless this thread was late. One band is the whole picture here, and
         // the last pass has not finished it.

@@ -199,7 +199,7 @@ TEST_F(RemoteDevicesTest, StopWhenTheCallerWantsNoMore) {
     RenderSettings settings = test::few_vpls();
     settings.passes = 4;
     const test::Rendering picture = test::render_image(
-        helped, settings, [](const std::string&, double fraction) { return fraction < 0.4; });
+        helped, settings, {.progress = [](const std::string&, double fraction) { return fraction < 0.4; }});
     EXPECT_TRUE(picture.report.interrupted);
     EXPECT_EQ(helper.open_pictures(), 0u);
 }

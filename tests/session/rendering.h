@@ -23,20 +23,17 @@ inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
             .seed = 5};
 }
 
-inline Rendering render_image(
-    Session& session, const RenderSettings& settings,
-    const RenderProgress& progress = [](const std::string&, double) { return true; },
-    PassStart pass_start = {}, const PassWatcher& watcher = {}) {
+/// Hooks of a render may be added; those that take the picture are replaced.
+inline Rendering render_image(Session& session, const RenderSettings& settings, RenderHooks hooks = {},
+                              PassStart pass_start = {}) {
     Rendering rendering;
-    rendering.report = render(
-        session, settings,
-        [&](const RenderReport& report, const View&, const VplSet&) {
-            rendering.image = {report.width, report.height, layer_channels(), {}};
-        },
-        [&](std::span<const float> rows) {
-            rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
-        },
-        progress, {}, std::move(pass_start), watcher);
+    hooks.start = [&](const RenderReport& report, const View&, const VplSet&) {
+        rendering.image = {report.width, report.height, layer_channels(), {}};
+    };
+    hooks.rows = [&](std::span<const float> rows) {
+        rendering.image.values.insert(rendering.image.values.end(), rows.begin(), rows.end());
+    };
+    rendering.report = render(session, settings, hooks, std::move(pass_start));
     return rendering;
 }
 inline Rendering render_image(Device& device, const Scene& scene, const RenderSettings& settings) {

@@ -21,8 +21,7 @@ Scene tall_yard() {
 
 test::Rendering render_from(Session& session, const RenderSettings& settings, PassStart start,
                             const PassWatcher& watcher = {}) {
-    return test::render_image(
-        session, settings, [](const std::string&, double) { return true; }, std::move(start), watcher);
+    return test::render_image(session, settings, {.watcher = watcher}, std::move(start));
 }
 
 struct Watched {
@@ -134,13 +133,12 @@ TEST_F(Resume, AnInterruptedRenderGoesOnFromItsLastRow) {
         settings.passes = 2;
         std::optional<Checkpoint> last;
         bool is_stopped = false;
-        const RenderReport stopped = render(
-            session, settings, [](const RenderReport&, const View&, const VplSet&) {},
-            [](std::span<const float>) {}, [&](const std::string&, double) { return !is_stopped; }, {}, {},
-            [&](const PassesSoFar& so_far) {
-                is_stopped = true;
-                last = Checkpoint{so_far.record(), so_far.average.sums()};
-            });
+        RenderHooks hooks{.progress = [&](const std::string&, double) { return !is_stopped; }};
+        hooks.watcher = [&](const PassesSoFar& so_far) {
+            is_stopped = true;
+            last = Checkpoint{so_far.record(), so_far.average.sums()};
+        };
+        const RenderReport stopped = render(session, settings, hooks);
         ASSERT_TRUE(stopped.interrupted);
         EXPECT_GT(last->record.begun_rows, 0u);
         EXPECT_TRUE(last->record.whole.front().samples.empty());
