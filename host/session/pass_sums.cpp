@@ -17,11 +17,9 @@ struct ChannelPlace {
 constexpr std::array<ChannelPlace, NEARLIGHT_LAYER_CHANNELS> make_places() {
     std::array<ChannelPlace, NEARLIGHT_LAYER_CHANNELS> places{};
     std::array<std::size_t, 3> counts{};
-    for (const FilmLayer& layer : kFilmLayers) {
-        for (std::size_t i = 0; i < layer.channel_count; ++i) {
-            places[layer.first_channel + i] = {layer.passes,
-                                               counts[static_cast<std::size_t>(layer.passes)]++};
-        }
+    constexpr std::array kRules = pass_rules();
+    for (std::size_t channel = 0; channel < kRules.size(); ++channel) {
+        places[channel] = {kRules[channel], counts[static_cast<std::size_t>(kRules[channel])]++};
     }
     return places;
 }

@@ -14,11 +14,6 @@ Compaction::Compaction(Device& device)
       gather_(program_, "compaction_gather"),
       scan_(device) {}
 
-std::size_t Compaction::scratch_bytes(std::size_t count) const {
-    const std::size_t chunk_count = split_into_chunks(*device_, count).count;
-    return chunk_count * sizeof(uint) + scan_.scratch_bytes(chunk_count);
-}
-
 std::size_t Compaction::list_set(const Buffer<uint>& flags, std::size_t count, Buffer<uint>& indices) {
     if (count == 0) {
         return 0;

@@ -41,9 +41,6 @@ class Compaction {
         return result;
     }
 
-    /// The device memory that list_set() keeps for itself, in bytes.
-    [[nodiscard]] std::size_t scratch_bytes(std::size_t count) const;
-
   private:
     Device* device_;
     Program program_;

@@ -30,7 +30,6 @@ struct DeviceTree {
     Buffer<uint> triangle_ids;     ///< index in Scene::triangles for each slot that a single ray may hit
     bool has_wide_rays = false;    ///< single rays use the wide tree (Device::has_wide_rays())
 
-    [[nodiscard]] bool is_binary() const { return nodes.count() > 0; }
     [[nodiscard]] bool is_wide() const { return wide_nodes.count() > 0; }
 
     /// Calls visit(buffer) for the nodes and triangles for single rays, in the order that

@@ -29,12 +29,4 @@ std::vector<std::string> layer_channels() {
     return all;
 }
 
-std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> pass_rules() {
-    std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> rules;
-    for (const FilmLayer& layer : kFilmLayers) {
-        std::fill_n(rules.begin() + layer.first_channel, layer.channel_count, layer.passes);
-    }
-    return rules;
-}
-
 }  // namespace nearlight::core

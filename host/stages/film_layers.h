@@ -44,6 +44,17 @@ struct FilmLayer {
 inline constexpr std::array kFilmLayers{NEARLIGHT_FILM_LAYERS(NEARLIGHT_LAYER_ROW)};
 #undef NEARLIGHT_LAYER_ROW
 
+/// The rule by which several passes become one picture, for each channel.
+constexpr std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> pass_rules() {
+    std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> rules{};
+    for (const FilmLayer& layer : kFilmLayers) {
+        for (std::size_t i = 0; i < layer.channel_count; ++i) {
+            rules[layer.first_channel + i] = layer.passes;
+        }
+    }
+    return rules;
+}
+
 /// How many channels have this rule.
 constexpr std::size_t channels_with(PassRule rule) {
     std::size_t count = 0;
@@ -59,8 +70,5 @@ std::vector<std::string> channel_names(const FilmLayer& layer);
 
 /// The names of a finished picture's channels: R, G, B, direct.R, …, A.
 std::vector<std::string> layer_channels();
-
-/// The rule by which several passes become one picture, for each channel.
-std::array<PassRule, NEARLIGHT_LAYER_CHANNELS> pass_rules();
 
 }  // namespace nearlight::core

@@ -46,11 +46,6 @@ Aabb MortonSort::finish_bounds(uint chunk_count) const {
     return box;
 }
 
-std::size_t MortonSort::sort_scratch_bytes(std::size_t count) const {
-    const std::size_t position_count = kDigitCount * split_for_sort(*device_, count).count;
-    return (2 * count + position_count) * sizeof(uint) + scan_.scratch_bytes(position_count);
-}
-
 void MortonSort::sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count) {
     if (count < 2) {
         return;

@@ -48,9 +48,6 @@ class MortonSort {
     /// Sorts the first `count` pairs by key, in ascending order. Pairs of equal keys keep their order.
     void sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count);
 
-    /// The device memory that sort() keeps for itself, in bytes.
-    [[nodiscard]] std::size_t sort_scratch_bytes(std::size_t count) const;
-
   private:
     struct BoundsRun {
         uint chunk_size, chunk_count;

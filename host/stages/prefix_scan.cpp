@@ -27,16 +27,6 @@ PrefixScan<T>::PrefixScan(Device& device)
 }
 
 template <typename T>
-std::size_t PrefixScan<T>::scratch_bytes(std::size_t count) const {
-    std::size_t bytes = sizeof(T);
-    for (Chunks chunks = split_into_chunks(*device_, count); chunks.count > 1;
-         chunks = split_into_chunks(*device_, chunks.count)) {
-        bytes += chunks.count * sizeof(T);
-    }
-    return bytes;
-}
-
-template <typename T>
 void PrefixScan<T>::scan(const Buffer<T>& input, Buffer<T>& output, std::size_t count, bool inclusive) {
     if (count == 0) {
         total_.fill_zero();

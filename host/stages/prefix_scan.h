@@ -30,9 +30,6 @@ class PrefixScan {
     /// A buffer of one element: the sum of all inputs of the latest scan.
     [[nodiscard]] const Buffer<T>& total() const { return total_; }
 
-    /// The device memory that a scan of `count` elements keeps for itself, in bytes.
-    [[nodiscard]] std::size_t scratch_bytes(std::size_t count) const;
-
   private:
     void scan(const Buffer<T>& input, Buffer<T>& output, std::size_t count, bool inclusive);
     void scan_level(const Buffer<T>& input, Buffer<T>& output, uint count, bool inclusive, std::size_t level);

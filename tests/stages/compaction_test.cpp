@@ -83,18 +83,5 @@ TEST_F(CompactionTest, GathersElementsOfAnyStruct) {
     });
 }
 
-TEST_F(CompactionTest, ScratchIsWhatIsAllocated) {
-    on_each_device([](Device& device) {
-        constexpr std::size_t kCount = 300'000;
-        Buffer<uint> flags(device, kCount);
-        Buffer<uint> indices(device, kCount);
-        flags.fill_zero();
-        const std::size_t before = device.peak_bytes();
-        Compaction compaction(device);
-        compaction.list_set(flags, kCount, indices);
-        EXPECT_EQ(device.peak_bytes() - before, compaction.scratch_bytes(kCount));
-    });
-}
-
 }  // namespace
 }  // namespace nearlight::core

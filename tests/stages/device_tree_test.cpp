@@ -30,7 +30,6 @@ bool holds(const Buffer<T>& buffer, const std::vector<T>& expected) {
 /// A tree that was not asked for is empty.
 void expect_tree(const DeviceTree& tree, const Bvh& bvh, bool binary, bool wide) {
     const WideBvh widened = widen(bvh);
-    EXPECT_EQ(tree.is_binary(), binary);
     EXPECT_EQ(tree.is_wide(), wide);
     EXPECT_TRUE(holds(tree.nodes, binary ? bvh.nodes : std::vector<BvhNode>{}));
     EXPECT_TRUE(holds(tree.triangles, binary ? bvh.triangles : std::vector<BvhTriangle>{}));

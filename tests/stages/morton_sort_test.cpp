@@ -70,19 +70,6 @@ TEST_F(MortonSortTest, SortedAndReversedKeys) {
     });
 }
 
-TEST_F(MortonSortTest, ScratchIsWhatIsAllocated) {
-    on_each_device([](Device& device) {
-        constexpr std::size_t kCount = 100'000;
-        Buffer<uint> keys(device, kCount);
-        Buffer<uint> values(device, kCount);
-        keys.fill_zero();
-        const std::size_t before = device.peak_bytes();
-        MortonSort sorter(device);
-        sorter.sort(keys, values, kCount);
-        EXPECT_EQ(device.peak_bytes() - before, sorter.sort_scratch_bytes(kCount));
-    });
-}
-
 uint interleave(uint x, uint y, uint z) {
     uint code = 0;
     for (uint bit = 0; bit < 10; ++bit) {

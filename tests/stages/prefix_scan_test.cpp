@@ -81,17 +81,5 @@ TEST_F(PrefixScanTest, TotalOfNothingIsZeroAlsoAfterAnotherScan) {
     });
 }
 
-TEST_F(PrefixScanTest, ScratchIsWhatIsAllocated) {
-    on_each_device([](Device& device) {
-        constexpr std::size_t kCount = 300'000;
-        Buffer<uint> buffer(device, kCount);
-        buffer.fill_zero();
-        const std::size_t before = device.peak_bytes();
-        PrefixScan<uint> scan(device);
-        scan.exclusive(buffer, buffer, kCount);
-        EXPECT_EQ(device.peak_bytes() - before, scan.scratch_bytes(kCount));
-    });
-}
-
 }  // namespace
 }  // namespace nearlight::core

@@ -61,10 +61,6 @@ std::span<const TunableField> tunable_fields() {
     return kFields;
 }
 
-std::span<const TunablesRow> tunables_table() {
-    return kTable;
-}
-
 const TunablesRow& tunables_row(DeviceKind kind) {
     return *std::ranges::find(kTable, kind, &TunablesRow::kind);
 }

@@ -43,9 +43,8 @@ struct TunablesRow {
     DeviceKind kind;
     Tunables values;
 };
-/// The table of tunables, with one row per kind of device. The same values suit CPUs with vectors of 4, 8 and
+/// The row of a kind of device in the table of tunables. The same values suit CPUs with vectors of 4, 8 and
 /// 16 floats (bench/log/tunables.md).
-std::span<const TunablesRow> tunables_table();
 const TunablesRow& tunables_row(DeviceKind kind);
 
 /// The tunables of a device, and where they come from.
