@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <map>
-#include <numeric>
 #include <optional>
 
 #include "host/base/words.h"

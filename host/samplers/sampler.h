@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "host/samplers/sampler_stages.h"
 #include "host/stages/device_scene.h"

@@ -2,7 +2,6 @@
 #include "host/session/line_waists.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace nearlight::core {

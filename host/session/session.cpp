@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/session.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "host/base/message.h"

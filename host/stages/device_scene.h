@@ -4,7 +4,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include "host/scene/scene.h"
 #include "host/stages/device_tree.h"

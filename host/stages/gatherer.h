@@ -3,7 +3,6 @@
 // tested for every pair.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,6 @@
 #include "host/scene/gltf/meshes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
