@@ -8,6 +8,7 @@
 #include "shared/layout_facts.h"
 #include "shared/light.h"
 #include "shared/light_cut.h"
+#include "shared/light_tracer.h"
 #include "shared/packet_order.h"
 #include "shared/receiver_paths.h"
 #include "shared/shared_light.h"

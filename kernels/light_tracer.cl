@@ -17,6 +17,7 @@
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
 #include "lib/random.cl"
+#include "shared/light_tracer.h"
 
 /// Whether patches supply the direct light at this point: its triangle was selected and, where the policy
 /// decides point by point, the point itself lies in the region.
@@ -33,41 +34,41 @@ static inline float survival(const SceneView* scene, const EmittedParticle* part
 }
 
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
-                         const global uint* restrict close_triangles, uint whole_triangles, uint keep,
-                         uint first_walk, uint walk_count, uint bounce_count, uint all_walks,
-                         float min_survival, float max_survival, float absorption_shift, WalkAim aim,
-                         uint seed, global Vpl* restrict vpls, global uint* restrict flags) {
+                         const global uint* restrict close_triangles, LightTracerParams params, WalkAim aim,
+                         global Vpl* restrict vpls, global uint* restrict flags) {
     const uint index = (uint)get_global_id(0);
-    if (index >= walk_count) {
+    if (index >= params.walk_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
+    const uint bounce_count = params.bounce_count;
+    const uint seed = params.seed;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         flags[index * bounce_count + bounce] = 0;
     }
-    const uint walk = first_walk + index;
+    const uint walk = params.first_walk + index;
     EmittedParticle particle = emit_particle(&scene, &aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
                                              sample_2d(walk, 2, seed));
-    float launched = (float)all_walks;
+    float launched = (float)params.all_walks;
     for (uint bounce = 0; bounce < bounce_count; ++bounce) {
         const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce;
         const float2 choice = sample_2d(walk, pair, seed);
         Landing at;
-        if (!((float)walk + absorption_shift < launched) || is_black(particle.flux) ||
+        if (!((float)walk + params.absorption_shift < launched) || is_black(particle.flux) ||
             !land(&scene, &particle, choice.x, &at)) {
             return;
         }
         const float3 reflected = reflected_flux(&scene, &particle, &at);
-        const bool is_close =
-            is_close_surface(close_range, close_triangles, whole_triangles, at.hit.triangle, at.hit.position);
-        const bool kept =
-            keep == NEARLIGHT_KEEP_ALL || !is_close || (keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
+        const bool is_close = is_close_surface(close_range, close_triangles, params.whole_triangles,
+                                               at.hit.triangle, at.hit.position);
+        const bool kept = params.keep == NEARLIGHT_KEEP_ALL || !is_close ||
+                          (params.keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
         if (kept && !is_black(reflected)) {
             vpls[index * bounce_count + bounce] = make_deposit(
                 &scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
             flags[index * bounce_count + bounce] = 1;
         }
-        launched *= survival(&scene, &particle, &at, min_survival, max_survival);
+        launched *= survival(&scene, &particle, &at, params.min_survival, params.max_survival);
         scatter(&scene, &particle, &at, &aim, choice.y, sample_2d(walk, pair + 1, seed));
     }
 }

@@ -9,6 +9,7 @@
 #include "kernels/shared/layout_facts.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_cut.h"
+#include "kernels/shared/light_tracer.h"
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/receiver_paths.h"
 #include "kernels/shared/shared_light.h"

@@ -44,10 +44,20 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
     Buffer<uint> indices(*device_, slot_count);
     for (uint first = 0; first < walks.walk_count; first += batch_size) {
         const uint count = std::min(batch_size, walks.walk_count - first);
-        light_tracer_.launch_items(count, scene, region.range, region.triangles,
-                                   region.whole_triangles ? 1u : 0u, static_cast<uint>(keep), first, count,
-                                   walks.bounce_count, walks.walk_count, walks.min_survival,
-                                   walks.max_survival, absorption_shift, walks.aim, walks.seed, slots, flags);
+        const LightTracerParams params{.whole_triangles = region.whole_triangles ? 1u : 0u,
+                                       .keep = static_cast<uint>(keep),
+                                       .first_walk = first,
+                                       .walk_count = count,
+                                       .bounce_count = walks.bounce_count,
+                                       .all_walks = walks.walk_count,
+                                       .min_survival = walks.min_survival,
+                                       .max_survival = walks.max_survival,
+                                       .absorption_shift = absorption_shift,
+                                       .seed = walks.seed,
+                                       .pad0 = 0,
+                                       .pad1 = 0};
+        light_tracer_.launch_items(count, scene, region.range, region.triangles, params, walks.aim, slots,
+                                   flags);
         const std::size_t kept_count =
             compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
         compaction_.gather(slots, indices, kept_count, kept);

@@ -8,7 +8,7 @@
 #include "host/cl/kernel.h"
 #include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
-#include "kernels/shared/light_walk.h"
+#include "kernels/shared/light_tracer.h"
 #include "kernels/shared/walk_aim.h"
 
 namespace nearlight::core {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/stages/light_tracer.h"
+#include "kernels/shared/light_walk.h"
 
 namespace nearlight::core {
 

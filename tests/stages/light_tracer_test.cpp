@@ -234,9 +234,20 @@ TEST_F(LightTracerTest, BatchesDoNotChangeABit) {
             Buffer<Vpl> vpls(device, std::size_t{count} * kBounces);
             Buffer<uint> flags(device, std::size_t{count} * kBounces);
             vpls.fill_zero();
-            kernel.launch_items(count, on_device.buffers, region.range, region.triangles, 0u,
-                                static_cast<uint>(KeepDeposits::all), first, count, kBounces, kWalks, 0.7001f,
-                                0.7001f, 0.25f, WalkAim{}, 11u, vpls, flags);
+            const LightTracerParams params{.whole_triangles = 0,
+                                           .keep = NEARLIGHT_KEEP_ALL,
+                                           .first_walk = first,
+                                           .walk_count = count,
+                                           .bounce_count = kBounces,
+                                           .all_walks = kWalks,
+                                           .min_survival = 0.7001f,
+                                           .max_survival = 0.7001f,
+                                           .absorption_shift = 0.25f,
+                                           .seed = 11,
+                                           .pad0 = 0,
+                                           .pad1 = 0};
+            kernel.launch_items(count, on_device.buffers, region.range, region.triangles, params, WalkAim{},
+                                vpls, flags);
             return std::pair{vpls.download(), flags.download()};
         };
         const auto [vpls, flags] = run(0, kWalks);
