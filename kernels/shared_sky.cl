@@ -117,17 +117,17 @@ static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, c
 }
 
 kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
-                              const global ReceiverPacket* restrict receivers, uint packet_count,
+                              const global ReceiverPacket* restrict receivers, SharedSkyParams params,
                               const global SharedLight* restrict found, const global uint* restrict listed,
                               const global float* restrict factors, const global uint* restrict lengths,
-                              const global uint* restrict seen_by, uint rays, uint light_samples,
-                              uint max_edges, global IrradiancePacket* restrict irradiance, uint has_seen,
-                              uint seen_rays, const global SeenSurface* restrict seen,
+                              const global uint* restrict seen_by,
+                              global IrradiancePacket* restrict irradiance,
+                              const global SeenSurface* restrict seen,
                               global CameraVertex* restrict vertices) {
     const uint receiver = (uint)get_global_id(0);
     const uint packet = receiver / NEARLIGHT_PACKET_SIZE;
     const uint lane = receiver % NEARLIGHT_PACKET_SIZE;
-    if (packet >= packet_count) {
+    if (packet >= params.packet_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
@@ -139,14 +139,15 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
     at.x = receiver_position(receivers + packet, lane);
     at.n = receiver_normal(receivers + packet, lane);
     at.curve = receiver_curve(receivers + packet, lane);
-    at.rays = (float)rays;
-    at.light_samples = (float)light_samples;
-    at.bundle_rays = (float)(NEARLIGHT_SKY_RAYS * rays);
+    at.rays = (float)params.rays;
+    at.light_samples = (float)params.light_samples;
+    at.bundle_rays = (float)(NEARLIGHT_SKY_RAYS * params.rays);
+    const uint max_edges = params.max_edges;
     const uint own_edges = max_edges - min(receiver_surfaces(receivers + packet, lane), max_edges);
     at.max_veils = min(max(own_edges, 1u) - 1, (uint)NEARLIGHT_MAX_VEILS);
     at.seen = seen + receiver;
-    at.seen_rays = (float)seen_rays;
-    at.seen_samples = has_seen ? (float)seen[receiver].light_samples : 0.0f;
+    at.seen_rays = (float)params.seen_rays;
+    at.seen_samples = params.has_seen ? (float)seen[receiver].light_samples : 0.0f;
     const SkyLight light = sum_sky(&scene, &veils, &at, found, listed + first, factors + first,
                                    lengths[bundle], seen_by + first * BUNDLE_WORDS, place);
     add_irradiance_to(irradiance + packet, lane, light.irradiance);

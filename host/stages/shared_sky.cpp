@@ -12,13 +12,18 @@ SharedSky::SharedSky(Device& device)
 
 void SharedSky::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                     const SeenSurfaces& seen, Buffer<IrradiancePacket>& irradiance) {
-    const ReceiverPathSettings& settings = batch.settings;
     lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_SKY_LIGHTS,
                Hiding::solids);
+    const SharedSkyParams params{.packet_count = static_cast<uint>(batch.packet_count),
+                                 .rays = batch.settings.path_count,
+                                 .light_samples = batch.settings.light_samples,
+                                 .max_edges = batch.settings.max_edges,
+                                 .has_seen = seen.surfaces.count() > 0 ? 1u : 0u,
+                                 .seen_rays = seen.rays,
+                                 .pad0 = 0,
+                                 .pad1 = 0};
     gather_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene, VeilsForRays{batch.scene},
-                         batch.receivers, static_cast<uint>(batch.packet_count), found, lists,
-                         settings.path_count, settings.light_samples, settings.max_edges, irradiance,
-                         seen.surfaces.count() > 0 ? 1u : 0u, seen.rays, seen.surfaces, seen.vertices);
+                         batch.receivers, params, found, lists, irradiance, seen.surfaces, seen.vertices);
 }
 
 }  // namespace nearlight::core

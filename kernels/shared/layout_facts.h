@@ -64,6 +64,8 @@
     OFFSET(SharedLight, radiance)                   \
     SIZE(SeenSurface)                               \
     OFFSET(SeenSurface, light_samples)              \
+    SIZE(SharedSkyParams)                           \
+    OFFSET(SharedSkyParams, seen_rays)              \
     SIZE(SharedReflection)                          \
     OFFSET(SharedReflection, light_pdf)             \
     SIZE(SurfaceSample)                             \

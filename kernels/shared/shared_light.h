@@ -40,6 +40,17 @@ typedef struct SeenSurface {
     uint light_samples;  // that the surface takes of lights; 0: it does not ask the bundle
 } SeenSurface;
 
+/// One launch of shared_sky.cl.
+typedef struct SharedSkyParams {
+    uint packet_count;   // packets of receivers
+    uint rays;           // that each receiver sends
+    uint light_samples;  // that each receiver takes of lights
+    uint max_edges;      // of a path from a light to a receiver with no surfaces before it
+    uint has_seen;       // 1: the surfaces that the camera sees ask too
+    uint seen_rays;      // that each of these sends in search of lights
+    uint pad0, pad1;
+} SharedSkyParams;
+
 /// A surface that reflects light other than diffusely to the receivers of a bundle (shared_reflections.cl).
 /// The SharedLight that belongs to it has its place, and the radiance that arrives there.
 typedef struct SharedReflection {
@@ -63,6 +74,7 @@ typedef struct SharedReflection {
 
 #ifdef __cplusplus
 NEARLIGHT_CHECK_SHARED(SeenSurface, 32);
+NEARLIGHT_CHECK_SHARED(SharedSkyParams, 32);
 NEARLIGHT_CHECK_SHARED(SharedReflection, 32);
 NEARLIGHT_CHECK_SHARED(SharedLight, 48);
 static_assert(offsetof(SharedLight, normal) == offsetof(Vpl, normal),
