@@ -9,6 +9,7 @@
 #include "shared/light.h"
 #include "shared/light_cut.h"
 #include "shared/light_tracer.h"
+#include "shared/local_lights.h"
 #include "shared/packet_order.h"
 #include "shared/receiver_paths.h"
 #include "shared/shared_light.h"

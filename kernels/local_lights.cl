@@ -80,40 +80,36 @@ static inline uint packet_key(const global ReceiverPacket* packet, uint seed) {
 }
 
 kernel void local_light_radii(SCENE_PARAMETERS, const global Vpl* restrict vpls, uint vpl_count,
-                              float max_radius, float min_radius, float at_unit_light, uint seed,
-                              global float* restrict radii) {
+                              GatherRadius law, global float* restrict radii) {
     const uint index = (uint)get_global_id(0);
     if (index >= vpl_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const GatherRadius law = {max_radius, min_radius, at_unit_light, seed};
     radii[index] = gather_radius(&scene, &law, load3(vpls[index].position), load3(vpls[index].normal));
 }
 
 kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
-                             uint first_packet, uint slot_count, uint rays_per_receiver, float max_radius,
-                             float min_radius, float at_unit_light, const global Vpl* restrict vpls,
-                             const global float* restrict vpl_radii, uint vpl_count, uint connections,
-                             uint bounce_count, uint direct_samples, uint seed, global Vpl* restrict lights,
+                             LocalLightParams params, const global Vpl* restrict vpls,
+                             const global float* restrict vpl_radii, global Vpl* restrict lights,
                              global float* restrict light_radii, global uint* restrict flags) {
     const uint slot = (uint)get_global_id(0);
-    if (slot >= slot_count) {
+    if (slot >= params.slot_count) {
         return;
     }
     flags[slot] = 0;
     const SceneView scene = SCENE_VIEW;
-    const uint slots_per_packet = rays_per_receiver * NEARLIGHT_PACKET_SIZE;
-    const global ReceiverPacket* packet = receivers + first_packet + slot / slots_per_packet;
+    const uint slots_per_packet = params.rays_per_receiver * NEARLIGHT_PACKET_SIZE;
+    const global ReceiverPacket* packet = receivers + params.first_packet + slot / slots_per_packet;
     const LocalPoint receiver = receiver_point(packet, slot % NEARLIGHT_PACKET_SIZE);
     if (!(dot(receiver.normal, receiver.normal) > 0.0f)) {
         return;
     }
-    const uint key = packet_key(packet, seed);
+    const uint key = packet_key(packet, params.law.seed);
     const uint index = slot % slots_per_packet;
     const float3 direction =
         to_world_frame(square_to_cosine_hemisphere(sample_2d(index, 0, key)), receiver.normal);
-    const float reach = max_radius + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
+    const float reach = params.law.max_radius + 2.0f * ray_epsilon(receiver.position, scene.info->extent);
     const SurfaceHit hit = trace_surface(&scene, receiver.position, direction, reach);
     if (hit.t < 0.0f) {
         return;
@@ -124,16 +120,15 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = surface.bsdf.diffuse;
-    const GatherRadius law = {max_radius, min_radius, at_unit_light, seed};
-    const float radius = gather_radius(&scene, &law, light.position, light.normal);
+    const float radius = gather_radius(&scene, &params.law, light.position, light.normal);
     if (is_black(albedo) || !(local_geometry(&scene, &receiver, &light, radius) > 0.0f)) {
         return;
     }
     const uint walk_key = random_uint4((uint4)(index, key, 0x10ca1u, 1u)).x;
-    const Connections to = {vpls, vpl_radii, vpl_count, connections, law};
+    const Connections to = {vpls, vpl_radii, params.vpl_count, params.connections, params.law};
     const ReceiverPoint at = receiver_of(light.position, &surface);
-    const float3 exitance =
-        albedo * short_walk_irradiance(&scene, &to, &at, bounce_count, direct_samples, walk_key);
+    const float3 exitance = albedo * short_walk_irradiance(&scene, &to, &at, params.bounce_count,
+                                                           params.direct_samples, walk_key);
     if (is_black(exitance)) {
         return;
     }

@@ -10,6 +10,7 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_cut.h"
 #include "kernels/shared/light_tracer.h"
+#include "kernels/shared/local_lights.h"
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/receiver_paths.h"
 #include "kernels/shared/shared_light.h"

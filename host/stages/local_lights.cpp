@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 
+#include "kernels/shared/local_lights.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -13,6 +15,13 @@ namespace {
 std::size_t slots_at_a_time(const Device& device) {
     const std::size_t wanted = device.tunables().batch_receivers / 2;
     return std::min(wanted, device.entry().max_allocation_bytes / (2 * sizeof(Vpl)));
+}
+
+GatherRadius law_of(const LocalLightPlan& plan) {
+    return {.max_radius = plan.widest_radius,
+            .min_radius = plan.clamp_radius,
+            .at_unit_light = plan.radius_at_unit_light,
+            .seed = plan.seed};
 }
 
 }  // namespace
@@ -32,8 +41,8 @@ LocalVpls LocalLights::group(const DeviceScene& scene, std::span<const Vpl> vpls
     result.count = vpls.size();
     result.vpls = Buffer<Vpl>(*device_, vpls);
     result.radii = Buffer<float>(*device_, vpls.size());
-    radii_.launch_items(vpls.size(), scene, result.vpls, static_cast<uint>(vpls.size()), plan.widest_radius,
-                        plan.clamp_radius, plan.radius_at_unit_light, plan.seed, result.radii);
+    radii_.launch_items(vpls.size(), scene, result.vpls, static_cast<uint>(vpls.size()), law_of(plan),
+                        result.radii);
     const std::vector<float> radii = result.radii.download();
     std::map<float, std::vector<Vpl>, std::greater<>> by_radius;
     for (std::size_t i = 0; i < vpls.size(); ++i) {
@@ -52,11 +61,17 @@ std::size_t LocalLights::make(const DeviceScene& scene, const LocalVpls& vpls,
                               std::size_t packet_count, const LocalLightPlan& plan, LocalLightSlots& slots) {
     const std::size_t slot_count = packet_count * NEARLIGHT_PACKET_SIZE * plan.rays_per_receiver;
     const uint first = static_cast<uint>(first_packet);
-    rays_.launch_items(slot_count, scene, receivers, first, static_cast<uint>(slot_count),
-                       plan.rays_per_receiver, plan.widest_radius, plan.clamp_radius,
-                       plan.radius_at_unit_light, vpls.vpls, vpls.radii, static_cast<uint>(vpls.count),
-                       plan.connections, plan.bounce_count, plan.direct_samples, plan.seed, slots.lights,
-                       slots.radii, slots.flags);
+    const LocalLightParams params{.law = law_of(plan),
+                                  .first_packet = first,
+                                  .slot_count = static_cast<uint>(slot_count),
+                                  .rays_per_receiver = plan.rays_per_receiver,
+                                  .vpl_count = static_cast<uint>(vpls.count),
+                                  .connections = plan.connections,
+                                  .bounce_count = plan.bounce_count,
+                                  .direct_samples = plan.direct_samples,
+                                  .pad0 = 0};
+    rays_.launch_items(slot_count, scene, receivers, params, vpls.vpls, vpls.radii, slots.lights, slots.radii,
+                       slots.flags);
     const std::size_t light_count = compaction_.list_set(slots.flags, slot_count, slots.indices);
     density_.launch_items(light_count, scene, receivers, first, plan.rays_per_receiver, slots.radii,
                           slots.indices, static_cast<uint>(light_count), slots.lights, slots.seen_by);

@@ -6,18 +6,8 @@
 
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
+#include "shared/local_lights.h"
 
-/// The law of the radius at which the geometry term is bounded for light from a place y: max_radius /
-/// 2^level, but not below min_radius. The level is the first (of GATHER_LEVELS) for which the radius is at
-/// most at_unit_light / √E, where E is the luminance of the direct light at y (W/m²), so that the radius
-/// follows the distance between VPLs of walks. E is a rough estimate whose random numbers are hashes of y.
-/// The radius is thus a function of the place alone and does not depend on the VPLs there.
-typedef struct GatherRadius {
-    float max_radius;  // m
-    float min_radius;  // m
-    float at_unit_light;
-    uint seed;
-} GatherRadius;
 #define GATHER_LEVELS 4u
 #define GATHER_LIGHT_SAMPLES 4u
 

@@ -8,7 +8,7 @@
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
 /// place where it expands must include bsdf_query.h, camera_pass.h, film_layers.h, light.h, light_cut.h,
-/// light_tracer.h, packet_order.h, receiver_paths.h, shared_light.h, types.h and walk_aim.h.
+/// light_tracer.h, local_lights.h, packet_order.h, receiver_paths.h, shared_light.h, types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -94,6 +94,11 @@
     SIZE(LightTracerParams)                         \
     OFFSET(LightTracerParams, all_walks)            \
     OFFSET(LightTracerParams, seed)                 \
+    SIZE(GatherRadius)                              \
+    OFFSET(GatherRadius, seed)                      \
+    SIZE(LocalLightParams)                          \
+    OFFSET(LocalLightParams, first_packet)          \
+    OFFSET(LocalLightParams, direct_samples)        \
     SIZE(PacketOrder)                               \
     OFFSET(PacketOrder, bundle_samples)             \
     OFFSET(PacketOrder, interleave)                 \
