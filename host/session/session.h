@@ -65,7 +65,7 @@ class Session {
             const SessionOptions& options = {}) = delete;
     Session(Device& device, const Scene&& scene, const SessionOptions& options = {}) = delete;
 
-    /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
+    /// Decides what the settings leave open, by a pilot view of about two thousand receivers.
     View look(const ViewSettings& settings, uint seed) { return look(scene_.camera, settings, seed); }
     /// Looks with another camera than the scene's.
     View look(const SceneCamera& camera, const ViewSettings& settings, uint seed);
@@ -146,8 +146,8 @@ class Session {
 };
 
 /// Begins to compile the programs that a render with these settings needs, so that they compile while the
-/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones. Nobody
-/// is told of a device that fails here, because the Session will find out too.
+/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones. A device
+/// that fails here gets a debug message only, because the Session will find out too.
 void begin_compiling(std::span<Device* const> devices, const SessionOptions& options,
                      const SamplingSettings& settings);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structs that host and kernels share. Both compile this file, so that each struct is defined only once.
 // Rules: structs have no float3 (16 bytes that read as 12), bool, size_t, pointers, bit-fields or enums, and
-// every size is a multiple of 16 bytes. A `layout_probe` kernel and a test compare sizes and offsets on every
-// device.
+// they are aligned to 4 bytes, with no gaps between members. A `layout_probe` kernel and a test compare sizes
+// and offsets on every device.
 #ifndef NEARLIGHT_SHARED_TYPES_H
 #define NEARLIGHT_SHARED_TYPES_H
 
@@ -112,8 +112,9 @@ typedef struct Triangle {
 
 /// One entry of the table of lights, which lists delta lights (point, spot, projector, directional), then
 /// area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
-/// environment. An entry is chosen with `probability`, in proportion to its emitted power. A sphere or
-/// cylinder is one light, although rays meet the triangles that stand for it.
+/// environment. An entry is chosen with `probability`: each kind of light that there is has the same part,
+/// which its entries share in proportion to their emitted power (host/scene/emitters.h). A sphere or cylinder
+/// is one light, although rays meet the triangles that stand for it.
 ///
 /// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
 /// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the
@@ -351,7 +352,7 @@ typedef struct SceneInfo {
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
-    uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint light_node_count;     // 0: no tree of lights, area lights are chosen by power
     uint has_maps;             // 1: some surface has a normal or bump map
     uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
     uint has_sky;              // 1: there is an environment map or a sun
