@@ -29,8 +29,8 @@
 namespace nearlight::core {
 namespace {
 
-// Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
-// range. Seeds / chains / steps of 8/4/4 give 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
+// Chosen by RMSE at 1000 VPLs with a clamp radius of 2.5 % of the range, on scenes/cornell-box and in a large
+// hall. Seeds / chains / steps of 8/4/4 give 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
 // 0.036, 8/2/4 0.0084 and 0.037. With only as many states as VPLs, the RMSE is 0.0093 to 0.0102 and 0.037 to
 // 0.040, whatever the steps between them: it matters to have several states per VPL to choose from.
 constexpr double kSeedsPerVpl = 8;

@@ -142,7 +142,8 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                    buffers_.gathered, progress);
 }
 
-/// As trace_receivers(), where bundles share what the rays of their receivers find.
+/// Finds the direct light of a batch's receivers and what their rays bring, and lets each bundle share what
+/// these rays find.
 void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     stages_.receiver_paths.run_sharing(scene_, buffers_.receivers, packets, paths_, buffers_.direct,
                                        buffers_.indirect, buffers_.found);

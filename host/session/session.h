@@ -32,7 +32,7 @@ struct SessionSeconds {
 /// Takes how far a step is, from 0 to 1, and returns false to stop it.
 using GatherFraction = BandProgress;
 /// Takes finished rows, from top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, with the
-/// channels of layer_channels(). The width is that of the part which is made of the picture.
+/// channels of layer_channels(). The width is that of the part of the picture that is rendered.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
 struct GatherOutcome {
@@ -45,7 +45,7 @@ struct GatherOutcome {
 /// Its clamp radius counts only if rays bring back what it takes away.
 RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings);
 
-/// A set of VPLs, and the part that it has in the light of several.
+/// A set of VPLs, and its weight in the mean of several sets.
 struct VplPart {
     const VplSet* set = nullptr;
     float weight = 1.0f;
@@ -73,8 +73,9 @@ class Session {
     /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name.
     VplSet sample(const View& view, const SamplingSettings& settings, uint seed);
 
-    /// One set of several of this scene and depth, whose weights add up to 1: the VPLs of all with as much
-    /// of their power, so that their light is what all bring on average. No set may have local lights.
+    /// Joins sets of VPLs of this scene and depth into one. The power of each VPL is multiplied by the weight
+    /// of its part, and weights add up to 1, so the set has the weighted mean of their light. No set may have
+    /// local lights.
     VplSet join(std::span<const VplPart> parts);
 
     /// Writes VPLs that were made for the view to a file, from which sample() can take them. Throws as

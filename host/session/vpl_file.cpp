@@ -24,10 +24,12 @@ constexpr const char* kTitle = "nearlight virtual point lights, version 1";
 /// The columns of the table, in the order of their numbers.
 constexpr std::array kColumns{"x",   "y",     "z",    "nx",    "ny",    "nz",
                               "red", "green", "blue", "depth", "flags", "shading"};
-constexpr std::size_t kNeeded = 9;  ///< of them; other programs may leave out the others
+/// How many columns, from the first on, a file must have. Other programs may leave out the rest.
+constexpr std::size_t kNeeded = 9;
 using Row = std::array<double, kColumns.size()>;
 
-/// What the options of the same names take at most.
+/// The greatest values that a header may have. Those of the settings `clamp_radius` and
+/// `direct_samples_per_pixel` are as great.
 constexpr float kMaxClampRadius = 1e9f;
 constexpr uint kMaxLightSamples = 1'000'000;
 
