@@ -62,10 +62,6 @@ std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, Cl
     return lit_patches(stages, task, surface, points, task.seed);
 }
 
-KeepDeposits deposits_to_keep(Policy policy) {
-    return policy == Policy::paper ? KeepDeposits::outside : KeepDeposits::indirect_inside;
-}
-
 VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
     VplSet set;
     set.close_triangles = surface.triangle_count();

@@ -52,8 +52,8 @@ struct WeighedCandidates {
     std::vector<float> contributions;
 };
 
-WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
-                        std::size_t count, uint walk_count) {
+WeighedCandidates weigh_candidates(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
+                                   std::size_t count, uint walk_count) {
     WeighedCandidates candidates{.vpls = Buffer<Vpl>(stages.device, count), .contributions = {}};
     Buffer<uint> order(stages.device, count);
     Buffer<float> contributions(stages.device, count);
@@ -87,7 +87,8 @@ Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion
             light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
         stages.light_tracer.run(
             task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-                const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+                const WeighedCandidates candidates =
+                    weigh_candidates(stages, task, vpls, count, walks.walk_count);
                 pilot.contributions.insert(pilot.contributions.end(), candidates.contributions.begin(),
                                            candidates.contributions.end());
             });
@@ -165,7 +166,8 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
     stages.light_tracer.run(
         task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-            const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+            const WeighedCandidates candidates =
+                weigh_candidates(stages, task, vpls, count, walks.walk_count);
             const std::vector<Vpl> batch = candidates.vpls.download();
             for (std::size_t i = 0; i < count; ++i) {
                 const double probability = acceptance->probability(candidates.contributions[i]);

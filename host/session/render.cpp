@@ -31,7 +31,7 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
 }
 
 void render_once(Session& session, const RenderSettings& settings, const RenderStart& start,
-                 const RowSink& sink, const GatherFraction& progress, const VplMaker& vpls,
+                 const RowSink& sink, const WorkProgress& progress, const VplMaker& vpls,
                  RenderReport& report) {
     const Prepared pass = prepare(session, settings, vpls, report);
     start(report, pass.view, pass.vpls);
@@ -58,7 +58,7 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
         add_beauty(rows, hasher);
         sink(rows);
     };
-    const GatherFraction gathering = [&](double fraction) { return progress("gathering", fraction); };
+    const WorkProgress gathering = [&](double fraction) { return progress("gathering", fraction); };
     if (keeps_sums) {
         render_passes(session, settings,
                       {start, hash_and_send, gathering, forecast, watcher, vpls, std::move(pass_start)},

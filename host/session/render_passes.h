@@ -10,7 +10,7 @@ namespace nearlight::core {
 struct PassesTask {
     const RenderStart& start;
     const RowSink& sink;
-    const GatherFraction& progress;
+    const WorkProgress& progress;
     const ForecastSink& forecast;
     const PassWatcher& watcher;
     const VplMaker& vpls;

@@ -28,7 +28,7 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
 void note_pass(const Prepared& pass, RenderReport& report);
 
 /// Gathers the rows of the pass. `next` is PictureOrder::next.
-void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
+void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,
             RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next = {});
 
 }  // namespace nearlight::core

@@ -29,8 +29,6 @@ struct SessionSeconds {
     double total = 0;
 };
 
-/// Takes how far a step is, from 0 to 1, and returns false to stop it.
-using GatherFraction = BandProgress;
 /// Takes finished rows, from top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, with the
 /// channels of layer_channels(). The width is that of the part of the picture that is rendered.
 using RowSink = std::function<void(std::span<const float> rows)>;
@@ -85,7 +83,7 @@ class Session {
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
     /// the caller's thread.
     GatherOutcome gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                         const RowSink& sink, const GatherFraction& progress, const PictureOrder& order = {});
+                         const RowSink& sink, const WorkProgress& progress, const PictureOrder& order = {});
 
     /// Plans a picture for PictureOrder::present, and shows it to remote devices.
     std::shared_ptr<PlannedPicture> plan(const View& view, const VplSet& vpls, const GatherSettings& settings,
@@ -121,7 +119,7 @@ class Session {
     /// that are missing at the bottom.
     void mattes(const Camera& camera, const std::optional<PixelWindow>& window,
                 std::span<const MattePass> passes, std::span<const NamedKind> kinds, const MatteSink& sink,
-                const GatherFraction& progress);
+                const WorkProgress& progress);
 
     /// The seconds of getting ready. A second call returns zeros, so that only one picture counts them.
     [[nodiscard]] SessionSeconds take_seconds() { return std::exchange(seconds_, {}); }

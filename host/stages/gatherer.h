@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/base/division.h"
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "host/stages/device_tree.h"
@@ -66,7 +67,7 @@ struct GatherInput {
     const Buffer<float>* curves = nullptr;
 
     [[nodiscard]] std::size_t group_count() const {
-        return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
+        return group_size == 0 ? 0 : divide_rounding_up(vpl_count, group_size);
     }
     /// The maximum number of VPLs that a bundle asks about.
     [[nodiscard]] std::size_t asked_count() const {

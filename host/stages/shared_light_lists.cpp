@@ -38,8 +38,8 @@ void SharedLightLists::resize(std::size_t bundle_count) {
 }
 
 void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacket>& receivers,
-                            std::size_t packet_count, const ReceiverPathSettings& settings, float radius,
-                            const Buffer<SharedLight>& found, uint count, Hiding hiding) {
+                            std::size_t packet_count, const ReceiverPathSettings& settings,
+                            float max_distance, const Buffer<SharedLight>& found, uint count, Hiding hiding) {
     const auto packets = static_cast<uint>(packet_count);
     const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
     resize(bundle_count);
@@ -47,9 +47,9 @@ void SharedLightLists::make(const DeviceScene& scene, const Buffer<ReceiverPacke
                          lengths_);
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
-        visibility_.launch(items, local_size, nodes, triangles, receivers, packets, found, radius * radius,
-                           settings.max_edges, settings.path_count, listed_, lengths_, factors_, seen_by_,
-                           rest...);
+        visibility_.launch(items, local_size, nodes, triangles, receivers, packets, found,
+                           max_distance * max_distance, settings.max_edges, settings.path_count, listed_,
+                           lengths_, factors_, seen_by_, rest...);
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,
