@@ -210,9 +210,10 @@ void check_vpls(const VplFile& set, const Scene& scene, uint max_depth, const fs
         fail_ply(file, "these VPLs were made for another scene, or the scene has changed since");
     }
     if (set.origin && set.origin->max_depth != max_depth) {
-        const std::string made_for = std::to_string(set.origin->max_depth);
-        fail_ply(file, "these VPLs were made for a maximum depth of " + made_for + ", not of " +
-                           std::to_string(max_depth) + "; give --max-depth " + made_for);
+        fail_ply(file,
+                 "these VPLs were made for a maximum depth of " + std::to_string(set.origin->max_depth) +
+                     ", not of " + std::to_string(max_depth),
+                 "max_depth");
     }
     const std::size_t curve_count = scene.transmission_curves.size() / NEARLIGHT_CURVE_SIZE;
     if (std::ranges::any_of(set.vpls, [&](const Vpl& vpl) {
