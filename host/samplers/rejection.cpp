@@ -161,8 +161,8 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     }
     VplSet set;
     std::vector<Vpl> accepted;
-    double sum = Pcg32(task.seed, kDecisions)
-                     .uniform();  // of probabilities; a candidate is accepted where it passes a whole number
+    // The sum of probabilities. A candidate is accepted where it passes a whole number.
+    double sum = Pcg32(task.seed, kDecisions).uniform();
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
     stages.light_tracer.run(
         task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {

@@ -120,11 +120,10 @@ class Gatherer {
 
     /// light[p] = Σ_i power_i/π · T·T·max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
     /// vpl_count), for each packet p of [0, packet_count). With strata, the sum is over the stratum of the
-    /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits
-    /// depend neither on the division into launches nor on the number of threads. Pairs that contain NaN or
-    /// infinity contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums
-    /// then cover only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with
-    /// strata or a selection.
+    /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits depend neither on
+    /// the division into launches nor on the number of threads. Pairs that contain NaN or infinity contribute
+    /// nothing. Waits for the device. Returns false if `progress` cancelled; the sums then cover only part of
+    /// the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with strata or a selection.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});

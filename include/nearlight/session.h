@@ -29,8 +29,8 @@ struct VirtualPointLight {
     Vec3 position;  ///< in metres, a tiny distance above its surface
     Vec3 normal;    ///< unit vector
     Vec3 power;     ///< in W of red, green and blue, after reflection at the surface
-    std::uint32_t
-        depth;   ///< 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths
+    /// 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths.
+    std::uint32_t depth;
     bool close;  ///< lies in the close range
 };
 
