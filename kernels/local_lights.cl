@@ -35,19 +35,20 @@
 #include "lib/path_walk.cl"
 #include "lib/vpl.cl"
 
-typedef struct LocalPoint {
-    float3 position;
+/// A receiver or a local light, as local_geometry() connects them.
+typedef struct OrientedPoint {
+    float3 position;  // off its surface
     float3 normal;
-} LocalPoint;
+} OrientedPoint;
 
-static inline LocalPoint receiver_point(const global ReceiverPacket* packet, uint lane) {
-    LocalPoint point;
+static inline OrientedPoint point_of_receiver(const global ReceiverPacket* packet, uint lane) {
+    OrientedPoint point;
     point.position = receiver_position(packet, lane);
     point.normal = receiver_normal(packet, lane);
     return point;
 }
-static inline LocalPoint light_point(const global Vpl* light) {
-    LocalPoint point;
+static inline OrientedPoint point_of_light(const global Vpl* light) {
+    OrientedPoint point;
     point.position = load3(light->position);
     point.normal = load3(light->normal);
     return point;
@@ -56,8 +57,8 @@ static inline LocalPoint light_point(const global Vpl* light) {
 /// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their surfaces by the
 /// ray epsilon, so that points of one plane have height 0 except for rounding, which is less than a tenth of
 /// the epsilon.
-static inline float local_geometry(const SceneView* scene, const LocalPoint* receiver,
-                                   const LocalPoint* light, float radius) {
+static inline float local_geometry(const SceneView* scene, const OrientedPoint* receiver,
+                                   const OrientedPoint* light, float radius) {
     const float3 to_receiver = receiver->position - light->position;
     const float squared = dot(to_receiver, to_receiver);
     const float height = dot(light->normal, to_receiver);
@@ -101,7 +102,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     const SceneView scene = SCENE_VIEW;
     const uint slots_per_packet = params.rays_per_receiver * NEARLIGHT_PACKET_SIZE;
     const global ReceiverPacket* packet = receivers + params.first_packet + slot / slots_per_packet;
-    const LocalPoint receiver = receiver_point(packet, slot % NEARLIGHT_PACKET_SIZE);
+    const OrientedPoint receiver = point_of_receiver(packet, slot % NEARLIGHT_PACKET_SIZE);
     if (!(dot(receiver.normal, receiver.normal) > 0.0f)) {
         return;
     }
@@ -116,7 +117,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     }
     const SurfaceBsdf surface =
         surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(index, 1, key).x);
-    LocalPoint light;
+    OrientedPoint light;
     light.position = offset_point(&scene, hit.position, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = surface.bsdf.diffuse;
@@ -151,13 +152,13 @@ kernel void local_light_density(SCENE_PARAMETERS, const global ReceiverPacket* r
     const uint slot = indices[item];
     const global ReceiverPacket* packet =
         receivers + first_packet + slot / (rays_per_receiver * NEARLIGHT_PACKET_SIZE);
-    const LocalPoint light = light_point(lights + slot);
+    const OrientedPoint light = point_of_light(lights + slot);
     const float3 seen = seen_normal(lights + slot);
     const float radius = light_radii[slot];
     float sum = 0.0f;
     ulong mask = 0;
     for (uint lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
-        const LocalPoint receiver = receiver_point(packet, lane);
+        const OrientedPoint receiver = point_of_receiver(packet, lane);
         const float geometry = local_geometry(&scene, &receiver, &light, radius);
         // A ray that meets the surface behind its shading normal makes no light.
         const bool is_seen = dot(seen, receiver.position - light.position) > 0.0f;
@@ -184,15 +185,15 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint slots_per_packet = rays_per_receiver * NEARLIGHT_PACKET_SIZE;
     const uint first_slot = index / NEARLIGHT_PACKET_SIZE * slots_per_packet;
-    const LocalPoint receiver =
-        receiver_point(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
+    const OrientedPoint receiver =
+        point_of_receiver(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
     const uint curve = receiver_curve(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
     float3 sum = (float3)(0.0f);
     for (uint slot = first_slot; slot < first_slot + slots_per_packet; ++slot) {
         if (flags[slot] == 0 || (seen_by[slot] >> lane & 1) == 0) {
             continue;
         }
-        const LocalPoint light = light_point(lights + slot);
+        const OrientedPoint light = point_of_light(lights + slot);
         const float3 between = receiver.position - light.position;
         const float squared = dot(between, between);
         const float radius = light_radii[slot];

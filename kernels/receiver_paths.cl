@@ -9,8 +9,9 @@
 // surfaces edges. VPLs bring it longer ones, whose light the rays take away again.
 //
 // `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
-// shared_lights.cl, shared_sky.cl and shared_reflections.cl to take further. Reflections want the `spacing`
-// of each receiver, which receiver_spacing finds: one work-item for each bundle; any work-group size.
+// shared_lights.cl, shared_sky.cl, shared_veiled.cl and shared_reflections.cl to take further. Reflections
+// want the `spacing` of each receiver, which receiver_spacing finds: one work-item for each bundle; any
+// work-group size.
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"

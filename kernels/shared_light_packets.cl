@@ -21,12 +21,12 @@ static inline void find_sharing_lanes(uint* sharing, const global ReceiverPacket
 
 /// Ends the segments to receivers that do not share, and to those whose rays could not have found the light.
 static inline void leave_out_strangers(Segments* s, const global SharedLight* light, const uint* sharing,
-                                       float radius_squared) {
+                                       float max_distance_squared) {
     const float3 shading = unpack_direction(light->shading);
     for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
         const uint row = first_row(open);
         const float16 dx = s->dx[row], dy = s->dy[row], dz = s->dz[row];
-        const int16 near = (dx * dx + dy * dy + dz * dz < radius_squared) &
+        const int16 near = (dx * dx + dy * dy + dz * dz < max_distance_squared) &
                            (shading.x * dx + shading.y * dy + shading.z * dz > 0.0f);
         end_lanes(s, row, ~(lane_bits16(near) & sharing[row]));
     }
@@ -60,7 +60,7 @@ static inline float add_seen(const Segments* s, const uchar* order, uint first, 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void shared_light_packets(
     const global WideNode* nodes, const global TriangleBlock* blocks,
     const global ReceiverPacket* restrict receivers, uint packet_count,
-    const global SharedLight* restrict found, float clamp_radius_squared, uint max_edges,
+    const global SharedLight* restrict found, float max_distance_squared, uint max_edges,
     uint rays_per_receiver, const global uint* restrict listed, const global uint* restrict lengths,
     global float* restrict factors, global uint* restrict seen_by, volatile global uint* next_bundle) {
     Receivers beam;
@@ -85,7 +85,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void shared_light_packets(
             for (uint i = 0; i < length; ++i) {
                 const global SharedLight* light = found + listed[list + i];
                 connect(&segments, as_vpl(light), &beam, 0.0f);
-                leave_out_strangers(&segments, light, sharing, clamp_radius_squared);
+                leave_out_strangers(&segments, light, sharing, max_distance_squared);
                 trace_segments(&segments, &bounds, nodes, blocks);
                 sums[i] =
                     add_seen(&segments, beam.order, first, sums[i], seen_by + (list + i) * BUNDLE_WORDS);

@@ -9,7 +9,7 @@
 /// sees the light, and turns the entry's 1/probability into its shared_factor(). Any work-group size.
 kernel void shared_light_rays(const global BvhNode* nodes, const global BvhTriangle* triangles,
                               const global ReceiverPacket* restrict receivers, uint packet_count,
-                              const global SharedLight* restrict found, float clamp_radius_squared,
+                              const global SharedLight* restrict found, float max_distance_squared,
                               uint max_edges, uint rays_per_receiver, const global uint* restrict listed,
                               const global uint* restrict lengths, global float* restrict factors,
                               global uint* restrict seen_by) {
@@ -32,7 +32,7 @@ kernel void shared_light_rays(const global BvhNode* nodes, const global BvhTrian
             const global ReceiverPacket* packet = receivers + bundle.first + lane / NEARLIGHT_PACKET_SIZE;
             const float3 x = receiver_position(packet, lane % NEARLIGHT_PACKET_SIZE);
             const float3 n = receiver_normal(packet, lane % NEARLIGHT_PACKET_SIZE);
-            const SharedConnection c = connect_shared(light, x, n, clamp_radius_squared);
+            const SharedConnection c = connect_shared(light, x, n, max_distance_squared);
             if (c.geometry > 0.0f && !occluded(nodes, triangles, from, x - from, NEARLIGHT_SEGMENT_T_MIN,
                                                NEARLIGHT_SEGMENT_T_MAX)) {
                 sum += c.geometry;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/base/division.h"
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -19,7 +20,7 @@ struct BundleLayout {
         uint count = 0;  ///< packets in the bundle
     };
     [[nodiscard]] constexpr uint bundle_count() const {
-        return (packet_count + NEARLIGHT_BUNDLE_PACKETS - 1) / NEARLIGHT_BUNDLE_PACKETS;
+        return divide_rounding_up(packet_count, NEARLIGHT_BUNDLE_PACKETS);
     }
     [[nodiscard]] constexpr Bundle bundle(uint index) const {
         const uint first = index * NEARLIGHT_BUNDLE_PACKETS;

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "host/base/division.h"
 #include "host/base/math.h"
 
 namespace nearlight::core {
@@ -16,7 +17,7 @@ struct ReceiverPoint {
 
 /// The number of packets for `receiver_count` receivers.
 constexpr std::size_t receiver_packet_count(std::size_t receiver_count) {
-    return (receiver_count + NEARLIGHT_PACKET_SIZE - 1) / NEARLIGHT_PACKET_SIZE;
+    return divide_rounding_up(receiver_count, NEARLIGHT_PACKET_SIZE);
 }
 
 inline ReceiverPoint receiver_at(const ReceiverPacket& packet, std::size_t lane) {

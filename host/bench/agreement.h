@@ -21,8 +21,8 @@ struct Disagreement {
     std::string tracer;
     std::size_t packet = 0, lane = 0, vpl = 0;
     Vec3 from{}, to{};  ///< VPL, receiver
-    bool is_culling =
-        false;  ///< one traces the pair and the other culls it; otherwise they differ about a hit
+    /// One traces the pair and the other culls it; otherwise they differ about a hit.
+    bool is_culling = false;
     bool tracer_says = false;  ///< the tracer found a hit; if is_culling: it traced the pair
     double distance = 0.0;  ///< from the segment to the nearest edge, m; if is_culling: the smaller |cosine|
     bool excused = false;   ///< single precision explains it: the distance is small enough

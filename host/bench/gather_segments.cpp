@@ -12,8 +12,8 @@
 namespace nearlight::core {
 namespace {
 
-constexpr float kClampRadiusShare =
-    0.01f;  // of the scene's extent; without roulette the work does not depend on it
+/// The clamp radius as a part of the scene's extent. Without roulette the work does not depend on it.
+constexpr float kClampRadiusShare = 0.01f;
 
 Scene geometry_of(const Scene& scene) {
     Scene result;

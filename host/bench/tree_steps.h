@@ -15,8 +15,8 @@ namespace nearlight::core {
 struct TreeSteps {
     std::uint64_t rays = 0;
     std::uint64_t occluded = 0;
-    double nodes_per_ray =
-        0.0;  ///< each ray by itself, nearer child first, as in the kernels for single rays
+    /// Each ray by itself, nearer child first, as in the kernels for single rays.
+    double nodes_per_ray = 0.0;
     double triangles_per_ray = 0.0;
     std::uint64_t packets = 0;      ///< each has the rays between one VPL and up to 64 receivers
     double nodes_per_packet = 0.0;  ///< rays together, children in stored order, as in the packet kernel

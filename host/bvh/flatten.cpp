@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "host/base/division.h"
 #include "host/bvh/parallel.h"
 
 namespace nearlight::core {
@@ -138,7 +139,7 @@ double sah_cost(const Bvh& bvh, const BvhConfig& config) {
         return root_area > 0.0 ? cost * half_area(low, high) / root_area : cost;
     };
     // Runs of fixed length are summed separately, so that the sum does not depend on the threads.
-    std::vector<double> sums((bvh.nodes.size() + kFetchGrain - 1) / kFetchGrain);
+    std::vector<double> sums(divide_rounding_up(bvh.nodes.size(), kFetchGrain));
     parallel_for(sums.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t run = first; run < last; ++run) {
             const auto nodes = std::span(bvh.nodes).subspan(run * kFetchGrain);

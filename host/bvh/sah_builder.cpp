@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/base/division.h"
 #include "host/bvh/object_split.h"
 #include "host/bvh/spatial_split.h"
 #include "nearlight/error.h"
@@ -27,7 +28,7 @@ constexpr float kSpatialGain = 0.85f;
 
 /// The number of levels below a node of `count` triangles that is halved until its parts fit into leaves.
 int halving_depth(std::size_t count, std::size_t leaf_size) {
-    const std::size_t leaves = (count + leaf_size - 1) / leaf_size;
+    const std::size_t leaves = divide_rounding_up(count, leaf_size);
     return static_cast<int>(std::bit_width(leaves - 1));
 }
 

@@ -117,8 +117,8 @@ class Widener {
 /// What a thread makes: a subtree, or a single node above subtrees, whose children are later parts.
 struct Part {
     uint reference = 0;
-    std::vector<std::size_t>
-        children;  ///< children of a single node, as indices of parts; empty for a subtree
+    /// Children of a single node, as indices of parts; empty for a subtree.
+    std::vector<std::size_t> children;
     WideBvh made;
     uint root = 0;  ///< reference to the root of a subtree, counted from the part's start
     std::size_t node_offset = 0, block_offset = 0;  ///< where the part is put

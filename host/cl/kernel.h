@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "host/base/division.h"
 #include "host/cl/buffer.h"
 #include "host/cl/program.h"
 
@@ -25,7 +26,7 @@ class Kernel {
         if (item_count == 0) {
             return;
         }
-        const std::size_t global_size = (item_count + local_size - 1) / local_size * local_size;
+        const std::size_t global_size = round_up_to_multiple(item_count, local_size);
         if (!handle_) {
             handle_ = program_.kernel(name_);
         }

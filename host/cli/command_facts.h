@@ -10,8 +10,8 @@
 namespace nearlight::core {
 
 struct OptionFacts {
-    std::vector<std::string>
-        names{};          ///< with their dashes, short ones first; one without dashes if positional
+    /// With their dashes, short ones first; one without dashes if it is positional.
+    std::vector<std::string> names{};
     std::string value{};  ///< what stands for the value, as in "N"; empty for a flag
     /// The words that it takes; empty if they cannot be listed. Where it takes_file too, it takes other
     /// words.

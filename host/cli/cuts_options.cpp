@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/cuts_options.h"
 
+#include "host/samplers/sampler.h"
+
 namespace nearlight::core {
 
 void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sampling) {
@@ -28,8 +30,9 @@ bool has_cuts(const std::string& cuts, const RenderSettings& settings) {
     if (wanted && settings.gather.roulette > 0.0f) {
         throw Error(ErrorKind::invalid_argument, "--roulette cannot be combined with --cuts or --vpl-set");
     }
-    if (wanted && sampling.sampler == SamplerKind::local) {
-        throw Error(ErrorKind::invalid_argument, "the sampler local takes neither --cuts nor --vpl-set");
+    if (wanted && sampler_entry(sampling.sampler).makes_local_lights) {
+        throw Error(ErrorKind::invalid_argument,
+                    "the sampler " + to_string(sampling.sampler) + " takes neither --cuts nor --vpl-set");
     }
     return wanted;
 }

@@ -18,8 +18,8 @@ namespace nearlight::core {
 struct PictureError {
     double squared_error = 0;  ///< mean over pixels and R, G, B; the paper's RMSE is its root
     double relative_mse = 0;   ///< mean of (a − b)² / (b² + 0.01), b the reference
-    double mean_ratio =
-        0;  ///< mean luminance ÷ the reference's mean luminance, which shows light lost or gained
+    /// Mean luminance ÷ the reference's mean luminance, which shows light lost or gained.
+    double mean_ratio = 0;
     std::array<double, 3> mean_error{};  ///< mean of a − b for R, G and B
     double flip = 0;             ///< mean FLIP error of the pictures multiplied by Reference::display_scale
     std::size_t non_finite = 0;  ///< number of pixels with NaN or infinity, which are left out

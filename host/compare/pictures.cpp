@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/base/division.h"
 #include "host/image/color.h"
 #include "nearlight/error.h"
 
@@ -104,7 +105,7 @@ Image cropped(const Image& picture, const Crop& crop) {
 }
 
 Image shrunk(const Image& picture, int max_width) {
-    const int factor = std::min((picture.width + max_width - 1) / max_width, picture.height);
+    const int factor = std::min(divide_rounding_up(picture.width, max_width), picture.height);
     Image small = make_picture(picture.width / factor, picture.height / factor);
     for (int y = 0; y < small.height * factor; ++y) {
         for (int x = 0; x < small.width * factor; ++x) {

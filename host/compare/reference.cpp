@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "host/base/division.h"
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
@@ -131,10 +132,10 @@ std::uint64_t identity(const Reference& reference) {
 
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples) {
     const bool traced = !spec.sampler;
-    const std::size_t size = traced ? kPassSamples : (samples + kVplPasses - 1) / kVplPasses;
+    const std::size_t size = traced ? kPassSamples : divide_rounding_up(samples, kVplPasses);
     std::vector<std::size_t> sizes(samples / size, size);
     if (const std::size_t rest = samples % size; rest > 0) {
-        sizes.push_back(traced ? (rest + kSampleUnit - 1) / kSampleUnit * kSampleUnit : rest);
+        sizes.push_back(traced ? round_up_to_multiple(rest, kSampleUnit) : rest);
     }
     return sizes;
 }

@@ -19,8 +19,8 @@ inline constexpr double kRelativeErrorFloor = 0.01;
 
 struct ReferenceNoise {
     bool known = false;
-    double mean_variance =
-        0;  ///< variance of the picture's values, mean over pixels and R, G, B; 0 if not known
+    /// Variance of the picture's values, mean over pixels and R, G, B; 0 if it is not known.
+    double mean_variance = 0;
     double mean_relative_variance = 0;  ///< mean of variance ÷ (value² + kRelativeErrorFloor); 0 if not known
 };
 

@@ -14,8 +14,8 @@ namespace nearlight::core {
 
 /// Everything that determines the expectation of a reference.
 struct ReferenceSpec {
-    std::optional<Method>
-        sampler;             ///< the sampler of a reference of VPLs; empty: path tracing (host/reference)
+    /// The sampler of a reference of VPLs; empty: path tracing (host/reference).
+    std::optional<Method> sampler;
     std::string scene_name;  ///< only used for names of files
     std::uint64_t scene_hash = 0;
     int width = 0;

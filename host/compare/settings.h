@@ -25,8 +25,8 @@ struct Crop {
 
 struct CompareSettings {
     std::filesystem::path output;  ///< folder of the report
-    std::filesystem::path
-        reference_folder;  ///< folder in which references are stored; empty: output/references
+    /// The folder in which references are stored; empty: output/references.
+    std::filesystem::path reference_folder;
     std::vector<Method> methods = all_methods();
     Method baseline = default_method();  ///< the method by whose values ratios are divided
     std::vector<uint> vpl_counts{1000, 2000, 5000, 10000};
@@ -41,10 +41,10 @@ struct CompareSettings {
     std::optional<uint> max_depth;        ///< in Mitsuba's counting; empty: the scene's, or 256
     int reference_spp = 1024;             ///< samples per pixel of a path-traced reference
     std::size_t reference_vpls = 0;       ///< VPLs of a reference of VPLs; 0: the reference is path-traced
-    std::optional<Method>
-        reference_sampler;  ///< sampler of a reference of VPLs; empty: instant radiosity, as in the paper
-    std::vector<std::filesystem::path>
-        reference_files;  ///< made by `nearlight reference`; each is used for the scene it shows
+    /// The sampler of a reference of VPLs; empty: instant radiosity, as in the paper.
+    std::optional<Method> reference_sampler;
+    /// Made by `nearlight reference`; each is used for the scene that it shows.
+    std::vector<std::filesystem::path> reference_files;
     BvhQuality bvh_quality = BvhQuality::quality;
     std::vector<Crop> crops;      ///< empty: chosen where errors are largest
     std::string program_version;  ///< cells of other versions are measured again

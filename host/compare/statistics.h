@@ -24,8 +24,9 @@ double median(std::span<const double> values);
 /// The root of the mean of squared errors, one for each seed.
 struct RmseEstimate {
     double value = 0;  ///< √max(0, mean)
-    double half_width =
-        0;  ///< of the interval about `value`: half width of the mean ÷ (2·value), by the root's derivative
+    /// Half the width of the interval about `value`: half width of the mean ÷ (2·value), by the root's
+    /// derivative.
+    double half_width = 0;
     double low = 0;   ///< root of the lower end of the mean's interval
     double high = 0;  ///< root of the upper end of the mean's interval
 };

@@ -106,8 +106,8 @@ struct ImageWriter::State {
     // A stream of our own reports every failed write, even after the last row.
     std::FILE* stream = nullptr;
     EncodingTask task;
-    std::unique_ptr<ImageEncoder>
-        encoder;  ///< made when the first rows come, so that the start does not wait for the module
+    /// Made when the first rows come, so that the start does not wait for the module.
+    std::unique_ptr<ImageEncoder> encoder;
 
     explicit State(const fs::path& target) : file(target) {}
     ~State();

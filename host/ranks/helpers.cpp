@@ -81,7 +81,7 @@ RemoteDevices Helpers::devices() {
                 order({picture, device, band});
             },
         .fetch =
-            [this](PictureNumber picture, std::size_t device, uint band, const BandProgress& progress) {
+            [this](PictureNumber picture, std::size_t device, uint band, const WorkProgress& progress) {
                 return fetch({picture, device, band}, progress);
             },
         .end = [this](PictureNumber picture) { end(picture); }};
@@ -120,7 +120,7 @@ void Helpers::order(const Key& key) {
                                                .band = band}));
 }
 
-std::optional<FinishedBand> Helpers::fetch(const Key& key, const BandProgress& progress) {
+std::optional<FinishedBand> Helpers::fetch(const Key& key, const WorkProgress& progress) {
     order(key);
     const Device& device = devices_[std::get<1>(key)];
     std::unique_lock lock(mutex_);

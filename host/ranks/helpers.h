@@ -47,7 +47,7 @@ class Helpers {
 
     PictureNumber show(const Picture& picture, std::span<const Vpl> vpls);
     void order(const Key& key);
-    std::optional<FinishedBand> fetch(const Key& key, const BandProgress& progress);
+    std::optional<FinishedBand> fetch(const Key& key, const WorkProgress& progress);
     void end(PictureNumber picture);
     void wait_for_goodbyes();
     void receive(int from, const Message& message);

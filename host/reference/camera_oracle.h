@@ -13,8 +13,8 @@ namespace nearlight::core {
 struct CameraComparison {
     std::size_t receivers = 0;  ///< receivers that are present
     std::size_t absent = 0;     ///< lanes beside the picture, and pixels that see nothing
-    std::size_t mismatches =
-        0;  ///< lanes away from edges whose position, normal, albedo, depth or close range differs
+    /// Lanes away from edges whose position, normal, albedo, depth or close range differs.
+    std::size_t mismatches = 0;
 };
 
 /// Compares a camera pass over the whole picture, made as one band of one sample and one branch, with Embree.

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "host/base/division.h"
 #include "host/base/fork_join.h"
 #include "host/base/math.h"
 #include "host/base/stopwatch.h"
@@ -147,7 +148,7 @@ PathTracerSettings completed(PathTracerSettings settings, const SceneCamera& cam
     if (settings.batch_size != 1 && settings.batch_size != 4 && settings.batch_size != 16) {
         throw Error(ErrorKind::invalid_argument, "batches have 1, 4 or 16 samples");
     }
-    settings.spp = (settings.spp + settings.batch_size - 1) / settings.batch_size * settings.batch_size;
+    settings.spp = round_up_to_multiple(settings.spp, settings.batch_size);
     if (settings.max_depth < -1) {
         throw Error(ErrorKind::invalid_argument, "max depth must be 1 or more, or 0 or -1 for no limit");
     }

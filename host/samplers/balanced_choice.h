@@ -70,9 +70,9 @@ class BalancedChoice {
     Pcg32 random_;
     std::size_t arrivals_ = 0;
     std::vector<Open> open_;
-    std::vector<float>
-        columns_;        ///< c_i/p_i of open candidates and a row for their count, kMaxOpen floats per row
-    Matrix products_{};  ///< dot products of the columns with each other
+    /// c_i/p_i of open candidates and a row for their count, kMaxOpen floats per row.
+    std::vector<float> columns_;
+    Matrix products_{};        ///< dot products of the columns with each other
     double usual_square_ = 0;  ///< mean square of a column when `inverse_` was begun
     double ridge_ = 1;
     Matrix inverse_{};            ///< inverse of products + ridge

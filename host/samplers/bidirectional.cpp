@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/division.h"
 #include "host/base/math.h"
 #include "host/base/message.h"
 #include "host/base/random.h"
@@ -57,7 +58,8 @@ CameraPoints choose_camera_points(SamplerStages& stages, const SamplingTask& tas
     for (std::size_t i = 0; i < count; ++i) {
         points.push_back(importons[static_cast<std::size_t>((static_cast<double>(i) + shift) * step)]);
     }
-    return make_camera_points(stages.device, points, static_cast<uint>((wanted_rays + count - 1) / count));
+    return make_camera_points(stages.device, points,
+                              static_cast<uint>(divide_rounding_up(wanted_rays, count)));
 }
 
 /// VPLs of one kind along the Morton curve, and the quantities that their weights follow from.

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "host/base/division.h"
 #include "host/base/math.h"
 #include "host/samplers/balanced_choice.h"
 
@@ -23,10 +24,6 @@ constexpr std::size_t kMaxInChunk = std::size_t{1} << 18u;
 constexpr std::size_t kMaxRowsInChunk = std::size_t{1} << 15u;
 /// The maximum number of candidates whose rows are kept: 96 MiB, which is enough for some 10 000 VPLs.
 constexpr std::size_t kMaxRowsKept = std::size_t{1} << 17u;
-
-std::size_t divide_rounding_up(std::size_t count, std::size_t by) {
-    return (count + by - 1) / by;
-}
 
 /// The number of candidates to work on at a time: as many as one allocation has room for, at most `max_size`.
 /// All chunks have nearly the same size.

@@ -12,8 +12,9 @@
 namespace nearlight::core {
 
 /// Weights in proportion to which candidates are to be chosen: what each brings to the camera, in the given
-/// norm, plus a small part that follows power alone. Because of that part, candidates that the importons do
-/// not see are chosen now and then.
+/// norm, plus a tenth that follows the error that a candidate would leave if nothing hid it, and a hundredth
+/// that follows power alone. Because of these parts, candidates that the importons do not see are chosen now
+/// and then.
 std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& task,
                                   std::span<const Vpl> candidates, ContributionNorm norm);
 

@@ -14,6 +14,10 @@ constexpr uint kPilotSeed = 0x5a17u;
 
 }  // namespace
 
+KeepDeposits deposits_to_keep(Policy policy) {
+    return policy == Policy::paper ? KeepDeposits::outside : KeepDeposits::indirect_inside;
+}
+
 float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     // Patches replace the deposits of depth 1 in the close range, and walks must supply the others. Tracing
     // the same walks twice, once keeping all deposits and once keeping what the policy keeps, tells the two
@@ -22,7 +26,7 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
                            .bounce_count = task.bounce_count,
                            .seed = task.seed ^ kPilotSeed,
                            .aim = walk_aim(task)};
-    const auto root_sum_of_squares = [&](KeepDeposits keep) {
+    const auto sum_of_squares = [&](KeepDeposits keep) {
         const std::vector<Vpl> vpls = stages.light_tracer.run(task.scene, region, keep, walks);
         const Buffer<Vpl> buffer(stages.device, std::span<const Vpl>(vpls));
         Buffer<float> contribution(stages.device, vpls.size());
@@ -34,9 +38,8 @@ float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, con
         }
         return sum;
     };
-    const double all = root_sum_of_squares(KeepDeposits::all);
-    const double kept = root_sum_of_squares(task.policy == Policy::paper ? KeepDeposits::outside
-                                                                         : KeepDeposits::indirect_inside);
+    const double all = sum_of_squares(KeepDeposits::all);
+    const double kept = sum_of_squares(deposits_to_keep(task.policy));
     const double close = std::sqrt(std::max(all - kept, 0.0));
     const double distant = std::sqrt(kept);
     if (!(close > 0.0)) {

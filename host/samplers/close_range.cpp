@@ -63,10 +63,6 @@ std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, Cl
     return lit_patches(stages, task, surface, points, task.seed);
 }
 
-KeepDeposits deposits_to_keep(Policy policy) {
-    return policy == Policy::paper ? KeepDeposits::outside : KeepDeposits::indirect_inside;
-}
-
 VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
     VplSet set;
     set.close_triangles = surface.triangle_count();
@@ -79,11 +75,10 @@ VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& tas
     }
     std::vector<Vpl> vpls = place_about(stages, task, surface, close_budget);
     set.close_count = vpls.size();
+    // At least one VPL is wanted of walks, because distant light would be lost without any.
+    const uint distant_budget = std::max(task.vpl_count - close_budget, 1u);
     const std::vector<Vpl> distant =
-        trace_about(
-            stages, task, surface.region(), deposits_to_keep(task.policy),
-            std::max(task.vpl_count - close_budget, 1u))  // with no walks, distant light would be lost
-            .vpls;
+        trace_about(stages, task, surface.region(), deposits_to_keep(task.policy), distant_budget).vpls;
     set.distant_count = distant.size();
     vpls.insert(vpls.end(), distant.begin(), distant.end());
     set.vpls = stages.vpl_order.sort(vpls);

@@ -32,8 +32,8 @@
 //
 // Light. The chosen patches get their light of all depths in full: many direct samples, a gather from a
 // larger sparse set, and short paths for what the bounded gather leaves out. This sparse set is a draw among
-// the deposits that are candidates too, which leaves no bias: the choice keeps the expectation of any sum over
-// the candidates, whatever light they are given, and their shares do not depend on the deposits.
+// the deposits that are candidates too, which leaves no bias: the choice keeps the expectation of any sum
+// over the candidates, whatever light they are given, and their shares do not depend on the deposits.
 #include "host/samplers/complete.h"
 
 #include <algorithm>
@@ -128,7 +128,8 @@ struct WeighedDeposits {
     std::vector<float> weights;
 };
 
-WeighedDeposits weigh(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits) {
+WeighedDeposits weigh_deposits(SamplerStages& stages, const SamplingTask& task,
+                               std::span<const Vpl> deposits) {
     WeighedDeposits weighed{.vpls = stages.vpl_order.sorted(deposits), .weights = {}};
     weighed.weights = choice_weights(stages, task, weighed.vpls, ContributionNorm::rough_mean_square);
     add_neighbourhood_errors(task, weighed.vpls, task.view.few_squared_importons.count, weighed.weights);
@@ -152,7 +153,7 @@ Candidates make_candidates(SamplerStages& stages, const SamplingTask& task, Clos
     const Deposits deposits =
         trace_about(stages, task, surface.region(), KeepDeposits::all, deposit_count(task));
     candidates.expected_deposits = deposits.expected_close;
-    const WeighedDeposits weighed = weigh(stages, task, deposits.vpls);
+    const WeighedDeposits weighed = weigh_deposits(stages, task, deposits.vpls);
     const std::vector<Vpl> passed = screened(task, weighed, std::size_t{task.vpl_count} * kScreenedPerVpl);
     candidates.vpls.insert(candidates.vpls.end(), passed.begin(), passed.end());
     candidates.sparse =
@@ -285,7 +286,7 @@ std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3>
 VplSet sample_for_cuts(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     const std::vector<Vpl> deposits =
         trace_about(stages, task, region, KeepDeposits::all, deposit_count(task)).vpls;
-    const std::vector<Vpl> vpls = screened(task, weigh(stages, task, deposits), task.vpl_count);
+    const std::vector<Vpl> vpls = screened(task, weigh_deposits(stages, task, deposits), task.vpl_count);
     VplSet set;
     set.vpls = VplBuffer(stages.device, vpls);
     set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));

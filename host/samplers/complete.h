@@ -6,9 +6,9 @@
 
 namespace nearlight::core {
 
-/// VPLs in the close range carry light of all depths, those elsewhere are deposits of light walks, and both
-/// are chosen from many candidates by what they bring to the camera. `surface` must be all of the close
-/// range, the unlit parts included.
+/// Candidates are patches of the close range, which carry light of all depths, and deposits of light walks
+/// everywhere; the two share the light of the close range. VPLs are drawn from them by what they bring to the
+/// camera. `surface` must be all of the close range, the unlit parts included.
 VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface);
 
 }  // namespace nearlight::core

@@ -29,8 +29,8 @@
 namespace nearlight::core {
 namespace {
 
-// Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
-// range. Seeds / chains / steps of 8/4/4 give 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
+// Chosen by RMSE at 1000 VPLs with a clamp radius of 2.5 % of the range, on scenes/cornell-box and in a large
+// hall. Seeds / chains / steps of 8/4/4 give 0.0077 and 0.036, 8/4/2 0.0077 and 0.035, 4/2/8 0.0075 and
 // 0.036, 8/2/4 0.0084 and 0.037. With only as many states as VPLs, the RMSE is 0.0093 to 0.0102 and 0.037 to
 // 0.040, whatever the steps between them: it matters to have several states per VPL to choose from.
 constexpr double kSeedsPerVpl = 8;
@@ -83,8 +83,8 @@ float choose_blind_target(SamplerStages& stages, PathSpace& space) {
         power += luminance(vpl.power) / kPilotSeeds;
     }
     const double target = kMetropolisBlindShare / (1 - kMetropolisBlindShare) * pilot.mean_target / power;
-    return target > 0 && target < 1e30 ? static_cast<float>(target)
-                                       : 1.0f;  // nothing lit is in view, so power alone counts
+    // Where nothing lit is in view, power alone counts.
+    return target > 0 && target < 1e30 ? static_cast<float>(target) : 1.0f;
 }
 
 /// Chooses `count` indices of seeds along the Morton curve. Seed i is expected count · target_i / Σ target
@@ -162,8 +162,8 @@ VplSet sample_metropolis(SamplerStages& stages, const SamplingTask& task) {
     const std::vector<uint> starts =
         choose_starts(stages, seeds, chain_count, Pcg32(task.seed, kStarts).uniform());
     const double steps_needed = std::ceil(2.0 * task.vpl_count / static_cast<double>(chain_count));
-    const uint steps =
-        std::max(kStepsPerChain, static_cast<uint>(steps_needed));  // more steps if memory bounds the chains
+    // There are more steps if memory bounds the number of chains.
+    const uint steps = std::max(kStepsPerChain, static_cast<uint>(steps_needed));
     const std::vector<Vpl> states = run_chains(stages, space, seeds, starts, steps);
     VplSet set;
     set.vpls = stages.vpl_order.sort(thin(states, task.vpl_count, Pcg32(task.seed, kThinning).uniform()));

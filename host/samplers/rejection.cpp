@@ -28,10 +28,10 @@
 namespace nearlight::core {
 namespace {
 
-// Chosen by RMSE at 1000 VPLs on scenes/cornell-box and another hall, with a clamp radius of 2.5 % of the
-// range: Φv of 2, 8, 16 and 32 times the mean contribution gives 0.0087, 0.0075, 0.0074 and 0.0072 on the
-// first scene, and 0.040, 0.037, 0.034 and 0.035 on the second. Independent decisions give 0.0095 and 0.039
-// at 8 times the mean. Blind shares from 0.02 to 0.2 are equal within the noise.
+// Chosen by RMSE at 1000 VPLs with a clamp radius of 2.5 % of the range. Φv of 2, 8, 16 and 32 times the mean
+// contribution gives 0.0087, 0.0075, 0.0074 and 0.0072 on scenes/cornell-box, and 0.040, 0.037, 0.034 and
+// 0.035 in a large hall. Independent decisions at 8 times the mean give 0.0095 on the box and 0.039 in the
+// hall. Blind shares from 0.02 to 0.2 are equal within the noise.
 constexpr double kWantedToMean = 16;
 /// The maximum number of candidates per VPL. It bounds the work if few candidates bring anything, by a lower
 /// Φv.
@@ -52,8 +52,8 @@ struct WeighedCandidates {
     std::vector<float> contributions;
 };
 
-WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
-                        std::size_t count, uint walk_count) {
+WeighedCandidates weigh_candidates(SamplerStages& stages, const SamplingTask& task, const Buffer<Vpl>& vpls,
+                                   std::size_t count, uint walk_count) {
     WeighedCandidates candidates{.vpls = Buffer<Vpl>(stages.device, count), .contributions = {}};
     Buffer<uint> order(stages.device, count);
     Buffer<float> contributions(stages.device, count);
@@ -69,10 +69,7 @@ WeighedCandidates weigh(SamplerStages& stages, const SamplingTask& task, const B
 }
 
 LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
-    return {.walk_count = walk_count,
-            .bounce_count = task.bounce_count,
-            .seed = seed,
-            .aim = walk_aim(task)};
+    return {.walk_count = walk_count, .bounce_count = task.bounce_count, .seed = seed, .aim = walk_aim(task)};
 }
 
 struct Pilot {
@@ -90,7 +87,8 @@ Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion
             light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
         stages.light_tracer.run(
             task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-                const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+                const WeighedCandidates candidates =
+                    weigh_candidates(stages, task, vpls, count, walks.walk_count);
                 pilot.contributions.insert(pilot.contributions.end(), candidates.contributions.begin(),
                                            candidates.contributions.end());
             });
@@ -163,12 +161,13 @@ VplSet sample_rejection(SamplerStages& stages, const SamplingTask& task) {
     }
     VplSet set;
     std::vector<Vpl> accepted;
-    double sum = Pcg32(task.seed, kDecisions)
-                     .uniform();  // of probabilities; a candidate is accepted where it passes a whole number
+    // The sum of probabilities. A candidate is accepted where it passes a whole number.
+    double sum = Pcg32(task.seed, kDecisions).uniform();
     const LightWalks walks = light_walks(task, choose_walk_count(task, pilot, *acceptance), task.seed);
     stages.light_tracer.run(
         task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
-            const WeighedCandidates candidates = weigh(stages, task, vpls, count, walks.walk_count);
+            const WeighedCandidates candidates =
+                weigh_candidates(stages, task, vpls, count, walks.walk_count);
             const std::vector<Vpl> batch = candidates.vpls.download();
             for (std::size_t i = 0; i < count; ++i) {
                 const double probability = acceptance->probability(candidates.contributions[i]);

@@ -57,9 +57,11 @@ inline bool is_close(const Vpl& vpl) {
 /// A set of VPLs that is ready to be gathered. The powers add up to the scene's reflected flux in
 /// expectation.
 struct VplSet {
-    VplBuffer vpls;                   ///< along the Morton curve
-    std::size_t close_count = 0;      ///< placed on close-range patches
-    std::size_t distant_count = 0;    ///< deposited by light walks
+    VplBuffer vpls;  ///< along the Morton curve
+    /// VPLs that count as those of the close range: the patches, and, with the policy `complete`, also the
+    /// deposits there. The policies `partition` and `paper` count all deposits as distant.
+    std::size_t close_count = 0;
+    std::size_t distant_count = 0;    ///< all other VPLs
     std::size_t close_triangles = 0;  ///< triangles that patches were placed on
     std::size_t sparse_count = 0;     ///< VPLs of the sparse sets, which no pixel gathers
     std::size_t candidate_count = 0;  ///< candidates that `vpls` were chosen from; 0: there was no choice

@@ -17,8 +17,8 @@ WalkAim walk_aim(const SamplingTask& task);
 struct Deposits {
     std::vector<Vpl> vpls;
     uint walk_count = 0;  ///< number of walks that were launched
-    double expected_close =
-        0;  ///< number of close deposits to expect by the pilot, which `vpls` is not part of
+    /// The number of close deposits to expect by the pilot, which `vpls` is not part of.
+    double expected_close = 0;
 };
 
 /// Traces about `wanted` deposits. A small independent pilot measures how many deposits a walk leaves, so

@@ -14,8 +14,8 @@ bool is_area_light(const Emitter& emitter);
 bool is_delta_light(const Emitter& emitter);
 
 struct EmitterTable {
-    std::vector<Emitter>
-        emitters;  ///< delta lights, area lights, the sun, the environment; cdf ends at exactly 1
+    /// Delta lights, area lights, the sun, the environment; cdf ends at exactly 1.
+    std::vector<Emitter> emitters;
     std::vector<LightNode> light_tree;  ///< of the area lights; empty if they are few (light_tree.h)
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "host/base/division.h"
 #include "host/scene/distribution.h"
 
 namespace nearlight::core {
@@ -31,7 +32,7 @@ Block block_at(const Environment& map, uint column, uint row) {
 }
 
 void set_blocks(Environment& map) {
-    const auto number = [&](uint pixels) { return (pixels + map.block_size - 1) / map.block_size; };
+    const auto number = [&](uint pixels) { return divide_rounding_up(pixels, map.block_size); };
     map.block_size = 1;
     while (number(map.width) > kMaxBlockColumns || number(map.height) > kMaxBlockRows) {
         map.block_size *= 2;

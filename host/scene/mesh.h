@@ -21,8 +21,8 @@ struct Mesh {
     std::filesystem::path source;  ///< the file, for messages
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< one a position, or empty
-    std::vector<std::array<float, 2>>
-        uvs;  ///< one a position, or empty; v = 0 at the bottom row of a texture
+    /// One for each position, or empty; v = 0 at the bottom row of a texture.
+    std::vector<std::array<float, 2>> uvs;
     std::vector<std::array<float, 2>> second_uvs;  ///< for Scene::second_uvs; one a position, or empty
     std::vector<Vec3> colors;                      ///< linear sRGB, one a position, or empty
     std::vector<std::array<uint, 3>> triangles;
@@ -45,8 +45,8 @@ struct MeshPlacement {
 /// which the transformed corners run counter-clockwise, even if the transform mirrors. Triangles with a NaN
 /// or infinite corner are left out, with a note. Colours of vertices are kept; vertices without one get
 /// kNoColor, which finish_vertex_colors() replaces; with colours of faces each triangle gets vertices of its
-/// own. Objects that the mesh has begin in the scene. Throws
-/// Error(ErrorKind::file) for an index out of range.
+/// own. Objects that the mesh has begin in the scene. Throws Error(ErrorKind::file) for an index out of
+/// range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
 /// Throws Error(ErrorKind::file) for an index out of range, and if normals, colours or texture coordinates

@@ -74,8 +74,8 @@ void parse_header_line(const std::filesystem::path& file, const std::string& lin
 
 }  // namespace
 
-void fail_ply(const std::filesystem::path& file, const std::string& what) {
-    throw Error(ErrorKind::file, file.string() + ": " + what);
+void fail_ply(const std::filesystem::path& file, const std::string& what, std::string_view setting) {
+    throw Error(ErrorKind::file, file.string() + ": " + what, setting);
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text) {

@@ -35,8 +35,9 @@ struct PlyHeader {
     std::size_t size = 0;  ///< bytes
 };
 
-/// Throws Error(ErrorKind::file), which names the file.
-[[noreturn]] void fail_ply(const std::filesystem::path& file, const std::string& what);
+/// Throws Error(ErrorKind::file), which names the file, and the setting to change if there is one.
+[[noreturn]] void fail_ply(const std::filesystem::path& file, const std::string& what,
+                           std::string_view setting = {});
 
 /// Reads the header at the beginning of the text of a file. Throws Error(ErrorKind::file).
 PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text);

@@ -97,8 +97,8 @@ struct SceneCamera {
     double near_clip = 0.0;        ///< surfaces are seen between these distances along +Z
     double far_clip = std::numeric_limits<double>::infinity();
     PixelFilter filter{};
-    bool sample_border =
-        false;  ///< pixels at the border take light from beyond it, as far as the filter goes
+    /// Pixels at the border take light from beyond it, as far as the filter goes.
+    bool sample_border = false;
     bool hide_emitters = false;  ///< emitters and the environment are not seen directly
     bool is_monochrome = false;  ///< the picture has the luminance of its light in all channels
 };

@@ -15,8 +15,8 @@ namespace nearlight::core {
 
 /// A moment of the animations that a file has.
 struct SceneMoment {
-    double seconds =
-        0;  ///< before the first key of a motion it has not begun, and after the last it has ended
+    /// Before the first key of a motion it has not begun, and after the last it has ended.
+    double seconds = 0;
     /// The animations to play: their names, or their numbers counted from 1. Empty: all but those that move
     /// what an earlier one moves.
     std::vector<std::string> animations{};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr uint kParts[] = {1, 2};  // BSDF_D and BSDF_S of kernels/lib/bsdf/bsdf.cl
 constexpr std::size_t kQueriesPerPart = 500;
-constexpr double kBsdfTolerance =
-    0.01;  // of the greater value; single precision loses most at grazing angles
+/// As a part of the greater value. Single precision loses most at grazing angles.
+constexpr double kBsdfTolerance = 0.01;
 constexpr float kLeastCosine = 0.02f;
 constexpr double kLeastValue = 1e-4;  // below it, values are equal
 

@@ -64,14 +64,14 @@ void check_gather(Device& device, GatherKernel kernel, CheckResult& result);
 
 // roulette_checks.cpp: the roulette against probabilities and the full gather.
 
-/// A case is a VPL of a packet over many seeds, which must be chosen as often as its bound says, with the
+/// A case is a VPL of a bundle over many seeds, which must be chosen as often as its bound says, with the
 /// reciprocal of that probability as its weight; or the mean of a packet's light over those seeds, which must
 /// be the light of all VPLs.
 void check_roulette(Device& device, CheckResult& result);
 
 // cut_checks.cpp: cuts through a tree of VPLs.
 
-/// A case is a VPL and a node above it, which must hold it; the power of a node; or the mean of a receiver's
+/// A case is a VPL and a node above it, which must hold it; the power of a node; or the mean of a packet's
 /// light over many evenly spaced shifts of the draws, which must be the light of all VPLs.
 void check_light_cuts(Device& device, CheckResult& result);
 
@@ -97,7 +97,7 @@ void check_camera_pass(Device& device, CheckResult& result);
 /// A case is a pixel, in whose middle the triangle must be Embree's unless the ray touches an edge.
 void check_first_surfaces(Device& device, CheckResult& result);
 
-// path_checks.cpp: stages that follow paths from receivers: bounce tracer and local lights.
+// path_checks.cpp: stages that follow paths from receivers: receiver paths and local lights.
 
 /// A case is a receiver on the inside of a sphere, where the indirect light of each depth is known, and the
 /// part of it that a clamp radius takes away.

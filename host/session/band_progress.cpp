@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStripCount = 12;
 constexpr int kMaxSmallWidth = 256;
-/// Of a pixel whose camera ray meets nothing, beside that of a receiver.
+/// The work of a pixel whose camera ray meets nothing, as a part of the work of a receiver.
 constexpr double kRayWork = 0.05;
 
 /// The pixel row of `cover` to which so many bands reach; the first and the last may have fewer tile rows.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/division.h"
 #include "host/session/receiver_weight.h"
 
 namespace nearlight::core {
@@ -11,7 +12,7 @@ namespace {
 
 /// The part of `per_pixel` that each camera sample takes, at least 1.
 uint per_sample(uint per_pixel, const GatherSettings& settings) {
-    return std::max(1u, (per_pixel + settings.samples_per_pixel - 1) / settings.samples_per_pixel);
+    return std::max(1u, divide_rounding_up(per_pixel, settings.samples_per_pixel));
 }
 
 /// Whether bundles share what the rays of their receivers find.
@@ -142,7 +143,8 @@ bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& pr
                                    buffers_.gathered, progress);
 }
 
-/// As trace_receivers(), where bundles share what the rays of their receivers find.
+/// Finds the direct light of a batch's receivers and what their rays bring, and lets each bundle share what
+/// these rays find.
 void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     const ReceiverBatch batch{scene_, buffers_.receivers, packets, paths_};
     const FoundLights& found = buffers_.found;
@@ -199,7 +201,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
     return finished;
 }
 
-std::optional<FinishedBand> BandRenderer::render(uint index, const BandProgress& progress) {
+std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress& progress) {
     const auto batches = picture_.plan.batches(index);
     const PixelWindow& cover = picture_.plan.cover;
     const uint first_row = batches.front().first_tile_row * NEARLIGHT_TILE_SIZE - cover.y;

@@ -75,7 +75,7 @@ class BandRenderer {
     BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture, const VplBuffer& vpls);
 
     /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.
-    std::optional<FinishedBand> render(uint index, const BandProgress& progress);
+    std::optional<FinishedBand> render(uint index, const WorkProgress& progress);
 
   private:
     /// Device memory that all batches use one after the other.

@@ -209,7 +209,7 @@ void tell_failures(const Board::News& news, std::span<const BandWorker> workers)
 
 /// Runs the workers. Returns false if `progress` stopped them. No worker is running afterwards.
 bool work_together(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares,
-                   const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress) {
+                   const std::function<void(FinishedBand& band)>& sink, const WorkProgress& progress) {
     const Crew crew(board, workers, shares);
     for (;;) {
         Board::News news = board.wait();
@@ -229,7 +229,7 @@ bool work_together(Board& board, std::span<const BandWorker> workers, std::vecto
 }  // namespace
 
 BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker> workers,
-                        const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress) {
+                        const std::function<void(FinishedBand& band)>& sink, const WorkProgress& progress) {
     BandOutcome outcome;
     for (const BandWorker& worker : workers) {
         outcome.shares.push_back({.name = worker.name});

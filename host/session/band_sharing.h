@@ -18,9 +18,9 @@ struct FinishedBand {
     std::size_t local_lights = 0;  ///< number of local lights that were made for the band
 };
 /// Takes how far a piece of work is, from 0 to 1, and returns false to stop it.
-using BandProgress = std::function<bool(double fraction)>;
+using WorkProgress = std::function<bool(double fraction)>;
 /// Makes band `index`. Returns nothing if `progress` stopped it.
-using BandMaker = std::function<std::optional<FinishedBand>(uint index, const BandProgress& progress)>;
+using BandMaker = std::function<std::optional<FinishedBand>(uint index, const WorkProgress& progress)>;
 
 /// One device that takes part. `start` and the function that it returns are called in a thread of the
 /// worker's own.
@@ -51,7 +51,7 @@ struct BandOutcome {
 /// how many wait for the sink. A worker that throws takes no further part: a warning says why, and the others
 /// make its band. If no worker is left, the last one's exception is rethrown.
 BandOutcome share_bands(uint band_count, uint window, std::span<const BandWorker> workers,
-                        const std::function<void(FinishedBand& band)>& sink, const BandProgress& progress);
+                        const std::function<void(FinishedBand& band)>& sink, const WorkProgress& progress);
 
 /// Adds the shares of another picture to `sum`. They are in the order of `sum`, but devices that have failed
 /// since may be missing. An empty `sum` becomes a copy of `shares`.

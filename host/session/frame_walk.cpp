@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/stopwatch.h"
+#include "host/samplers/sampler.h"
 
 namespace nearlight::core {
 
@@ -69,7 +70,7 @@ void FrameWalk::go_to(int frame, const ViewSettings& view, const SamplingSetting
 /// The key views before and after the frame in which the light is the same, weighted by how near they are.
 std::vector<KeyView> FrameWalk::key_views(int frame, const SamplingSettings& sampling) {
     const int step = key_step(options_);
-    if (step == 0 || sampling.sampler == SamplerKind::local || !sampling.file.empty()) {
+    if (step == 0 || sampler_entry(sampling.sampler).makes_local_lights || !sampling.file.empty()) {
         return {};
     }
     const int before = frame / step * step;

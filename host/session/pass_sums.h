@@ -17,10 +17,13 @@ namespace nearlight::core {
 /// passes, the last of the 106 bits may depend on the order; a picture has 24 of them.
 class PassSums {
   public:
-    /// The light of averaged layers, the passes' own variances of the beauty, and its squares.
+    /// Channels that are averaged; each has a sum.
     static constexpr std::size_t kMeans = channels_with(PassRule::mean);
+    /// Colours of the beauty: each has a sum of the passes' own variances, and one of its squares.
     static constexpr std::size_t kVariances = channels_with(PassRule::variance);
+    /// Sums of a pixel: of the averaged channels, then of the variances, then of the squares.
     static constexpr std::size_t kSums = kMeans + 2 * kVariances;
+    /// Channels that stay those of the first pass.
     static constexpr std::size_t kFirsts = channels_with(PassRule::first);
     static_assert(kVariances == NEARLIGHT_CHANNELS_RGB);
 

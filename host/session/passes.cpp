@@ -5,13 +5,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/base/division.h"
+
 namespace nearlight::core {
 namespace {
 
 /// `number` · part / whole, rounded up, and at least 1.
 uint part_of(uint number, uint part, uint whole) {
     const std::uint64_t product = std::uint64_t{number} * part;
-    return static_cast<uint>(std::max<std::uint64_t>((product + whole - 1) / whole, 1));
+    return static_cast<uint>(std::max<std::uint64_t>(divide_rounding_up(product, whole), 1));
 }
 
 }  // namespace

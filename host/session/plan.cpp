@@ -56,14 +56,14 @@ PixelWindow covering_bundles(const PictureSize& picture, uint bundle_width, uint
     const uint x = wanted.x / bundle_width * bundle_width;
     const uint y = wanted.y / bundle_height * bundle_height;
     const auto end = [](uint wanted_end, uint bundle, uint limit) {
-        return std::min((wanted_end + bundle - 1) / bundle * bundle, limit);
+        return std::min(round_up_to_multiple(wanted_end, bundle), limit);
     };
     return {x, y, end(wanted.x + wanted.width, bundle_width, picture.width) - x,
             end(wanted.y + wanted.height, bundle_height, picture.height) - y};
 }
 
-/// As many rows as fit in `rows`, but at least one bundle of rows.
-std::size_t whole_bundles(std::size_t rows, uint bundle_rows) {
+/// The rows of the bundles that fit whole into `rows`, but at least those of one bundle.
+std::size_t round_down_to_bundles(std::size_t rows, uint bundle_rows) {
     return std::max<std::size_t>(rows / bundle_rows, 1) * bundle_rows;
 }
 
@@ -137,21 +137,21 @@ RenderPlan make_plan(std::span<const std::size_t> batch_receivers, const Picture
     const uint rows = plan.bundle_rows * plan.interleave;
     plan.cover = covering_bundles(picture, columns * NEARLIGHT_TILE_SIZE, rows * NEARLIGHT_TILE_SIZE);
     plan.tile_row_count = tiles_across(plan.cover.height);
-    plan.tile_columns = (tiles_across(plan.cover.width) + columns - 1) / columns * columns;
+    plan.tile_columns = round_up_to_multiple(tiles_across(plan.cover.width), columns);
     const std::size_t per_row_sample =
         std::size_t{plan.tile_columns} * NEARLIGHT_PACKET_SIZE * plan.branch_count;
     const std::size_t fitting = budget / (per_row_sample * rows) / plan.bundle_samples * plan.bundle_samples;
     plan.samples_per_batch =
         static_cast<uint>(std::clamp<std::size_t>(fitting, plan.bundle_samples, plan.samples_per_pixel));
     const std::size_t per_row = per_row_sample * plan.samples_per_batch;
-    const std::size_t all_rows = whole_bundles(plan.tile_row_count + rows - 1, rows);
+    const std::size_t all_rows = std::max(round_up_to_multiple(plan.tile_row_count, rows), rows);
     const std::size_t max_rows = std::min(budget / per_row, all_rows);
     const std::size_t min_rows = batch_receivers.size() > 1 ? 1 : budget / kMinPart / per_row + 1;
     const std::size_t wanted_rows = plan.tile_row_count / (kBandsPerDevice * batch_receivers.size());
     plan.tile_rows_per_band =
-        static_cast<uint>(whole_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), rows));
-    plan.tile_rows_in_first =
-        static_cast<uint>(std::min<std::size_t>(whole_bundles(min_rows, rows), plan.tile_rows_per_band));
+        static_cast<uint>(round_down_to_bundles(std::min(std::max(wanted_rows, min_rows), max_rows), rows));
+    plan.tile_rows_in_first = static_cast<uint>(
+        std::min<std::size_t>(round_down_to_bundles(min_rows, rows), plan.tile_rows_per_band));
     return plan;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/division.h"
 #include "host/cl/device.h"
 #include "host/stages/camera_pass.h"
 #include "nearlight/settings.h"
@@ -33,7 +34,7 @@ struct RenderPlan {
 
     [[nodiscard]] uint band_count() const {
         const uint others = tile_row_count - std::min(tile_row_count, tile_rows_in_first);
-        return std::min(tile_row_count, 1u) + (others + tile_rows_per_band - 1) / tile_rows_per_band;
+        return std::min(tile_row_count, 1u) + divide_rounding_up(others, tile_rows_per_band);
     }
     /// The batches of band `index`, in the order to render them.
     [[nodiscard]] std::vector<CameraBand> batches(uint index) const;

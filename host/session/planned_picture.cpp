@@ -30,7 +30,7 @@ void add_remote_workers(const RemoteDevices& remote, const PlannedPicture& pictu
     for (const RemoteDevice& device : remote.devices) {
         BandWorker worker{.name = device.name,
                           .start = [&remote, number = *picture.shown, device = device.number]() -> BandMaker {
-                              return [&remote, number, device](uint band, const BandProgress& progress) {
+                              return [&remote, number, device](uint band, const WorkProgress& progress) {
                                   return remote.fetch(number, device, band, progress);
                               };
                           }};

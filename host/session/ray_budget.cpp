@@ -29,8 +29,8 @@ constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;  ///< and of one light s
 /// The squared error of one draw of a cut, relative to the light of all VPLs: it is about 1 where half of
 /// what is drawn is occluded (bench/log/cuts.md).
 constexpr double kErrorOfDraw = 1.0;
-/// The error of rays ÷ what two rays at each of a thousand receivers show of it, which miss the rare bright
-/// paths that carry most, though bundles share what rays find (bench/log/sharing.md).
+/// The error of rays ÷ what two rays at each receiver of the pilot view show of it, which miss the rare
+/// bright paths that carry most, though bundles share what rays find (bench/log/sharing.md).
 constexpr double kHiddenErrorOfRays = 4;
 /// How much more the error of VPLs counts than that of rays: neighbouring pixels share it, so that it is seen
 /// as splotches, and a denoiser leaves it (bench/log/limit.md).

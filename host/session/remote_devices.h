@@ -32,7 +32,7 @@ struct RemoteDevices {
     std::function<void(PictureNumber, std::size_t device, uint band)> order;
     /// Waits for a band, and orders it before unless it has been. Throws Error if the device has failed.
     std::function<std::optional<FinishedBand>(PictureNumber, std::size_t device, uint band,
-                                              const BandProgress&)>
+                                              const WorkProgress&)>
         fetch;
     /// Ends work on a picture. What has been ordered of it and was not fetched is lost.
     std::function<void(PictureNumber)> end;

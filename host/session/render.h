@@ -29,8 +29,8 @@ struct RenderSeconds {
 };
 
 struct RenderReport {
-    int width = 0;  ///< of the part that is made of the picture
-    int height = 0;
+    int width = 0;    ///< width in pixels of the part of the picture that is rendered
+    int height = 0;   ///< its height in pixels
     float range = 0;  ///< distance at which the close range ends, m
     RayBudget ray_budget{};
     uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
@@ -99,8 +99,8 @@ void add_beauty(std::span<const float> rows, Hasher& hasher);
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
 /// becomes the one of an uninterrupted render, to the bit; the report counts the passes of both, but the
-/// time, memory and devices of this one. The view and the VPLs that `hooks.start` gets are then of this
-/// render's first pass; if it made none, there are no VPLs.
+/// time, memory and devices of this one. If the checkpoint has whole passes, `hooks.start` gets a view
+/// as pass 0 has it, and no VPLs.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
                     PassStart pass_start = {});
 

@@ -16,13 +16,15 @@ using Moment = PassesSoFar::Moment;
 /// The passes of a picture, and what they have become.
 struct Passes {
     PassSchedule schedule;
-    uint first = 0;                      ///< number of the first of them
-    std::optional<PassChoice> choice{};  ///< of pass 0
-    std::optional<View> view{};          ///< of the first pass that is made here
-    VplSet vpls{};                       ///< of the same pass
+    uint first = 0;                      ///< number of the first pass; those before it are made elsewhere
+    std::optional<PassChoice> choice{};  ///< what pass 0 decided for all passes
+    /// The view of the first pass that is made here; after a checkpoint with whole passes, a view as pass 0
+    /// has it.
+    std::optional<View> view{};
+    VplSet vpls{};  ///< the VPLs of the same pass; none after a checkpoint with whole passes
     std::optional<PassAverage> average{};
-    std::size_t begun_rows = 0;  ///< of the next pass, from a checkpoint
-    PassTotals totals{};         ///< of whole passes
+    std::size_t begun_rows = 0;  ///< rows that a checkpoint has of a pass it left unfinished
+    PassTotals totals{};         ///< counts over all whole passes
     /// The pass after the present one, if remote devices may begin it early.
     std::optional<Prepared> next{};
 };

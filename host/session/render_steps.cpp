@@ -69,7 +69,7 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
     return pass;
 }
 
-void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
+void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,
             RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next) {
     const Stopwatch watch;
     const GatherOutcome outcome =

@@ -13,8 +13,8 @@ inline constexpr const char* kGathering = "gathering";
 struct Prepared {
     View view;
     VplSet vpls{};
-    RenderSettings settings;                    ///< of the pass
-    double seconds = 0;                         ///< that look and sample took
+    RenderSettings settings;                    ///< those of the pass
+    double seconds = 0;                         ///< seconds that look and sample took
     std::shared_ptr<PlannedPicture> planned{};  ///< null: it is planned when it is gathered
 };
 
@@ -23,7 +23,7 @@ View look(Session& session, const RenderSettings& settings, RenderReport& report
 
 /// Looks at the scene and makes VPLs, with `vpls` unless that is empty. `settings` are those of the pass.
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls);
-/// The same, and begins a pass of the report.
+/// Looks at the scene, makes VPLs, and notes them in the report as the beginning of a pass.
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
                  RenderReport& report);
 
@@ -31,7 +31,7 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
 void note_pass(const Prepared& pass, RenderReport& report);
 
 /// Gathers the rows of the pass. `next` is PictureOrder::next.
-void gather(Session& session, const Prepared& pass, const RowSink& sink, const GatherFraction& progress,
+void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,
             RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next = {});
 
 }  // namespace nearlight::core

@@ -233,7 +233,7 @@ std::vector<uint> Session::see_first(const Camera& camera, const SampleBlock& bl
 
 void Session::mattes(const Camera& camera, const std::optional<PixelWindow>& wanted,
                      std::span<const MattePass> passes, std::span<const NamedKind> kinds,
-                     const MatteSink& sink, const GatherFraction& progress) {
+                     const MatteSink& sink, const WorkProgress& progress) {
     const PixelWindow window = window_of(camera.width, camera.height, wanted);
     const double all_samples = samples_of(window, passes);
     double samples = 0.0;

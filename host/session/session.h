@@ -28,10 +28,8 @@ struct SessionSeconds {
     double total = 0;
 };
 
-/// Takes how far a step is, from 0 to 1, and returns false to stop it.
-using GatherFraction = BandProgress;
 /// Takes finished rows, from top to bottom: a multiple of width · NEARLIGHT_LAYER_CHANNELS floats, with the
-/// channels of layer_channels(). The width is that of the part which is made of the picture.
+/// channels of layer_channels(). The width is that of the part of the picture that is rendered.
 using RowSink = std::function<void(std::span<const float> rows)>;
 
 struct GatherOutcome {
@@ -44,7 +42,7 @@ struct GatherOutcome {
 /// Its clamp radius counts only if rays bring back what it takes away.
 RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& settings);
 
-/// A set of VPLs, and the part that it has in the light of several.
+/// A set of VPLs, and its weight in the mean of several sets.
 struct VplPart {
     const VplSet* set = nullptr;
     float weight = 1.0f;
@@ -64,7 +62,7 @@ class Session {
             const SessionOptions& options = {}) = delete;
     Session(Device& device, const Scene&& scene, const SessionOptions& options = {}) = delete;
 
-    /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
+    /// Decides what the settings leave open, by a pilot view of about two thousand receivers.
     View look(const ViewSettings& settings, uint seed) { return look(scene_.camera, settings, seed); }
     /// Looks with another camera than the scene's.
     View look(const SceneCamera& camera, const ViewSettings& settings, uint seed);
@@ -72,8 +70,9 @@ class Session {
     /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name.
     VplSet sample(const View& view, const SamplingSettings& settings, uint seed);
 
-    /// One set of several of this scene and depth, whose weights add up to 1: the VPLs of all with as much
-    /// of their power, so that their light is what all bring on average. No set may have local lights.
+    /// Joins sets of VPLs of this scene and depth into one. The power of each VPL is multiplied by the weight
+    /// of its part, and weights add up to 1, so the set has the weighted mean of their light. No set may have
+    /// local lights.
     VplSet join(std::span<const VplPart> parts);
 
     /// Writes VPLs that were made for the view to a file, from which sample() can take them. Throws as
@@ -83,7 +82,7 @@ class Session {
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
     /// the caller's thread.
     GatherOutcome gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                         const RowSink& sink, const GatherFraction& progress, const PictureOrder& order = {});
+                         const RowSink& sink, const WorkProgress& progress, const PictureOrder& order = {});
 
     /// Plans a picture for PictureOrder::present, and shows it to remote devices.
     std::shared_ptr<PlannedPicture> plan(const View& view, const VplSet& vpls, const GatherSettings& settings,
@@ -119,7 +118,7 @@ class Session {
     /// that are missing at the bottom.
     void mattes(const Camera& camera, const std::optional<PixelWindow>& window,
                 std::span<const MattePass> passes, std::span<const NamedKind> kinds, const MatteSink& sink,
-                const GatherFraction& progress);
+                const WorkProgress& progress);
 
     /// The seconds of getting ready. A second call returns zeros, so that only one picture counts them.
     [[nodiscard]] SessionSeconds take_seconds() { return std::exchange(seconds_, {}); }
@@ -145,8 +144,8 @@ class Session {
 };
 
 /// Begins to compile the programs that a render with these settings needs, so that they compile while the
-/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones. Nobody
-/// is told of a device that fails here, because the Session will find out too.
+/// scene is loaded. A Session on the same devices uses these programs and waits for unfinished ones. A device
+/// that fails here gets a debug message only, because the Session will find out too.
 void begin_compiling(std::span<Device* const> devices, const SessionOptions& options,
                      const SamplingSettings& settings);
 

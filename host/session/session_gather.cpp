@@ -27,7 +27,7 @@ uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
 
 BandMaker band_maker(PoolDevice& device, const Picture& picture, const VplBuffer& vpls) {
     auto bands = std::make_shared<BandRenderer>(device.bands, device.scene, picture, vpls);
-    return [bands](uint index, const BandProgress& progress) { return bands->render(index, progress); };
+    return [bands](uint index, const WorkProgress& progress) { return bands->render(index, progress); };
 }
 
 std::vector<BandWorker> band_workers(const DevicePool& pool, const Picture& picture, const VplBuffer& vpls) {
@@ -105,8 +105,7 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
 }
 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                              const RowSink& sink, const GatherFraction& progress,
-                              const PictureOrder& order) {
+                              const RowSink& sink, const WorkProgress& progress, const PictureOrder& order) {
     const std::shared_ptr<PlannedPicture> planned =
         order.present ? order.present : plan(view, vpls, settings, seed);
     const RenderPlan& plan = planned->picture.plan;

@@ -24,10 +24,12 @@ constexpr const char* kTitle = "nearlight virtual point lights, version 1";
 /// The columns of the table, in the order of their numbers.
 constexpr std::array kColumns{"x",   "y",     "z",    "nx",    "ny",    "nz",
                               "red", "green", "blue", "depth", "flags", "shading"};
-constexpr std::size_t kNeeded = 9;  ///< of them; other programs may leave out the others
+/// How many columns, from the first on, a file must have. Other programs may leave out the rest.
+constexpr std::size_t kNeeded = 9;
 using Row = std::array<double, kColumns.size()>;
 
-/// What the options of the same names take at most.
+/// The greatest values that a header may have. Those of the settings `clamp_radius` and
+/// `direct_samples_per_pixel` are as great.
 constexpr float kMaxClampRadius = 1e9f;
 constexpr uint kMaxLightSamples = 1'000'000;
 
@@ -208,9 +210,10 @@ void check_vpls(const VplFile& set, const Scene& scene, uint max_depth, const fs
         fail_ply(file, "these VPLs were made for another scene, or the scene has changed since");
     }
     if (set.origin && set.origin->max_depth != max_depth) {
-        const std::string made_for = std::to_string(set.origin->max_depth);
-        fail_ply(file, "these VPLs were made for a maximum depth of " + made_for + ", not of " +
-                           std::to_string(max_depth) + "; give --max-depth " + made_for);
+        fail_ply(file,
+                 "these VPLs were made for a maximum depth of " + std::to_string(set.origin->max_depth) +
+                     ", not of " + std::to_string(max_depth),
+                 "max_depth");
     }
     const std::size_t curve_count = scene.transmission_curves.size() / NEARLIGHT_CURVE_SIZE;
     if (std::ranges::any_of(set.vpls, [&](const Vpl& vpl) {

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/camera_pass.h"
 
+#include "host/base/division.h"
 #include "host/stages/joint_programs.h"
 #include "kernels/shared/camera_pass.h"
 
 namespace nearlight::core {
 
-namespace {
-
-uint whole_bundles(uint tiles, uint together) {
-    return (tiles + together - 1) / together * together;
-}
-
-}  // namespace
-
 PacketOrder packet_order(const CameraBand& band, uint width) {
-    return {.tile_columns = whole_bundles(tiles_across(width), band.bundle_columns * band.interleave),
+    return {.tile_columns = round_up_to_multiple(tiles_across(width), band.bundle_columns * band.interleave),
             .sample_count = band.sample_count,
             .branch_count = band.branch_count,
             .bundle_columns = band.bundle_columns,
@@ -26,7 +19,7 @@ PacketOrder packet_order(const CameraBand& band, uint width) {
 
 std::size_t packet_count(const CameraBand& band, uint width) {
     return std::size_t{packet_order(band, width).tile_columns} *
-           whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave) * band.sample_count *
+           round_up_to_multiple(band.tile_row_count, band.bundle_rows * band.interleave) * band.sample_count *
            band.branch_count;
 }
 
@@ -42,7 +35,7 @@ void CameraPass::run(const CameraPassInput& input, const CameraPassOutput& outpu
         .order = packet_order(band, input.width),
         .first_tile_column = band.first_tile_column,
         .first_tile_row = band.first_tile_row,
-        .tile_row_count = whole_bundles(band.tile_row_count, band.bundle_rows * band.interleave),
+        .tile_row_count = round_up_to_multiple(band.tile_row_count, band.bundle_rows * band.interleave),
         .first_sample = band.first_sample,
         .sequence_length = band.samples_per_pixel,
         .seed = input.seed,

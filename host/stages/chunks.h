@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "host/base/division.h"
 #include "host/cl/device.h"
 #include "kernels/shared/types.h"
 #include "nearlight/error.h"
@@ -21,9 +22,9 @@ struct Chunks {
 /// Splits an array into about one run per worker of the device; all runs but the last have at least
 /// `min_size` elements.
 inline Chunks split_into_chunks(const Device& device, std::size_t element_count, std::size_t min_size) {
-    const std::size_t even = (element_count + device.worker_count() - 1) / device.worker_count();
+    const std::size_t even = divide_rounding_up(element_count, device.worker_count());
     const std::size_t size = std::max(min_size, even);
-    return {static_cast<uint>(size), static_cast<uint>((element_count + size - 1) / size)};
+    return {static_cast<uint>(size), static_cast<uint>(divide_rounding_up(element_count, size))};
 }
 /// Splits an array whose elements are little work each into runs that are worth a work-item.
 inline Chunks split_into_chunks(const Device& device, std::size_t element_count) {

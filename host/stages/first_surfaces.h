@@ -15,8 +15,8 @@ struct SampleBlock {
     uint row_count = 0;
     uint first_sample = 0;
     uint sample_count = 1;
-    uint samples_per_pixel =
-        1;  ///< over all launches; if it is 1, the sample goes through the pixel's centre
+    /// Over all launches; if it is 1, the sample goes through the pixel's centre.
+    uint samples_per_pixel = 1;
 
     [[nodiscard]] std::size_t size() const { return std::size_t{width} * row_count * sample_count; }
 };

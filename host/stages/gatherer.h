@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/base/division.h"
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "host/stages/device_tree.h"
@@ -66,7 +67,7 @@ struct GatherInput {
     const Buffer<float>* curves = nullptr;
 
     [[nodiscard]] std::size_t group_count() const {
-        return group_size == 0 ? 0 : (vpl_count + group_size - 1) / group_size;
+        return group_size == 0 ? 0 : divide_rounding_up(vpl_count, group_size);
     }
     /// The maximum number of VPLs that a bundle asks about.
     [[nodiscard]] std::size_t asked_count() const {
@@ -119,11 +120,10 @@ class Gatherer {
 
     /// light[p] = Σ_i power_i/π · T·T·max0(cosθ_x)·max0(cosθ_y) / max(r², R²) · V over the VPLs [0,
     /// vpl_count), for each packet p of [0, packet_count). With strata, the sum is over the stratum of the
-    /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits
-    /// depend neither on the division into launches nor on the number of threads. Pairs that contain NaN or
-    /// infinity contribute nothing. Waits for the device. Returns false if `progress` cancelled; the sums
-    /// then cover only part of the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with
-    /// strata or a selection.
+    /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits depend neither on
+    /// the division into launches nor on the number of threads. Pairs that contain NaN or infinity contribute
+    /// nothing. Waits for the device. Returns false if `progress` cancelled; the sums then cover only part of
+    /// the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with strata or a selection.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});

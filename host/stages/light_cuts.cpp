@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/division.h"
 #include "host/base/random.h"
 
 namespace nearlight::core {
@@ -53,7 +54,7 @@ CutTree LightCuts::make_tree(const Buffer<Vpl>& vpls, std::size_t vpl_count) {
     tree.first_nodes.push_back(0);
     std::size_t size = vpl_count;
     do {
-        size = (size + NEARLIGHT_CUT_FANOUT - 1) / NEARLIGHT_CUT_FANOUT;
+        size = divide_rounding_up(size, NEARLIGHT_CUT_FANOUT);
         tree.first_nodes.push_back(tree.first_nodes.back() + static_cast<uint>(size));
     } while (size > NEARLIGHT_CUT_MAX_ROOTS);
     tree.nodes = Buffer<CutNode>(*device_, tree.first_nodes.back());

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host/base/division.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -48,7 +50,7 @@ const VplLists& Roulette::choose(const RouletteTask& task, std::size_t first_bun
     const auto first = lists_.first_bundle = static_cast<uint>(first_bundle);
     const auto end = static_cast<uint>(end_bundle);
     const uint run = device_->tunables().roulette_run;
-    bounds_kernel_.launch_items(bundles * ((stride + run - 1) / run), task.vpls, vpl_count, strata.count,
+    bounds_kernel_.launch_items(bundles * divide_rounding_up(stride, run), task.vpls, vpl_count, strata.count,
                                 strata.of_bundles, strata.period, stride, run, task.receivers, packet_count,
                                 first, end, task.clamp_radius * task.clamp_radius, bounds_);
     choose_kernel_.launch_items(bundles, bounds_, vpl_count, strata.count, strata.of_bundles, strata.period,

@@ -35,7 +35,7 @@ void SharedLightLists::make_room(std::size_t bundle_count) {
     ensure_room(seen_by_, *device_, entries * kMaskWords);
 }
 
-void SharedLightLists::make(const ReceiverBatch& batch, float radius, const Buffer<SharedLight>& found,
+void SharedLightLists::make(const ReceiverBatch& batch, float max_distance, const Buffer<SharedLight>& found,
                             uint count, Hiding hiding) {
     const DeviceScene& scene = batch.scene;
     const ReceiverPathSettings& settings = batch.settings;
@@ -47,8 +47,8 @@ void SharedLightLists::make(const ReceiverBatch& batch, float radius, const Buff
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
         visibility_.launch(items, local_size, nodes, triangles, batch.receivers, packets, found,
-                           radius * radius, settings.max_edges, settings.path_count, listed_, lengths_,
-                           factors_, seen_by_, rest...);
+                           max_distance * max_distance, settings.max_edges, settings.path_count, listed_,
+                           lengths_, factors_, seen_by_, rest...);
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,

@@ -26,9 +26,9 @@ class SharedLightLists {
     SharedLightLists(Device& device, GatherKernel kernel);
 
     /// Lists about `count` of the lights that ReceiverPaths::run_sharing() found, at most
-    /// NEARLIGHT_SHARED_LIGHTS, for each bundle. Light of farther places than `radius` (m) is left out. The
-    /// tree of the scene must be uploaded for the gather kernel.
-    void make(const ReceiverBatch& batch, float radius, const Buffer<SharedLight>& found, uint count,
+    /// NEARLIGHT_SHARED_LIGHTS, for each bundle. Light of farther places than `max_distance` (m) is left out.
+    /// The tree of the scene must be uploaded for the gather kernel.
+    void make(const ReceiverBatch& batch, float max_distance, const Buffer<SharedLight>& found, uint count,
               Hiding hiding = Hiding::surfaces);
 
     /// Calls visit(buffer) for listed, factors, lengths and seen_by, in the order in which kernels take them.

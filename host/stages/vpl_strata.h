@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "host/base/division.h"
 #include "host/cl/buffer.h"
 #include "kernels/shared/types.h"
 
@@ -22,7 +23,7 @@ struct VplStrata {
 
     /// The number of VPLs of a set of `vpl_count` that are in its largest stratum.
     [[nodiscard]] std::size_t max_size(std::size_t vpl_count) const {
-        return (vpl_count + count - 1) / count;
+        return divide_rounding_up(vpl_count, count);
     }
 
     uint count = 1;

@@ -29,8 +29,8 @@ struct VirtualPointLight {
     Vec3 position;  ///< in metres, a tiny distance above its surface
     Vec3 normal;    ///< unit vector
     Vec3 power;     ///< in W of red, green and blue, after reflection at the surface
-    std::uint32_t
-        depth;   ///< 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths
+    /// 1: lit by an emitter, 2: after one more bounce, …; 0: lit by light of all depths.
+    std::uint32_t depth;
     bool close;  ///< lies in the close range
 };
 
@@ -73,7 +73,8 @@ class NEARLIGHT_API VplSet {
   public:
     /// How many VPLs there are.
     [[nodiscard]] std::size_t size() const;
-    /// How many of the VPLs were placed on surfaces of the close range. Light walks left the others.
+    /// How many of the VPLs count as those of the close range: the patches there, and, with the policy
+    /// `complete`, also what light walks left there. 0 for all samplers but `close_range`.
     [[nodiscard]] std::size_t close_count() const;
     /// Copies the VPLs to the host: size() lights in an order in which neighbours in space are close to each
     /// other. For the thread that uses the session. Throws Error: ErrorKind::failure if the device fails.
@@ -133,7 +134,7 @@ class NEARLIGHT_API Session {
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    /// Decides what the settings leave open, by a pilot view of about 1000 receivers.
+    /// Decides what the settings leave open, by a pilot view of about 2000 receivers.
     View look(const ViewSettings& settings = {}, std::uint32_t seed = 0);
 
     /// Places about settings.vpl_count VPLs for the view, or takes those of settings.file. Throws Error:

@@ -26,7 +26,7 @@ enum class SamplerKind {
 /// The rule for deposits of light walks in the close range, for SamplerKind::close_range; docs/method.md
 /// explains it.
 enum class Policy {
-    complete,   ///< patches carry light of all depths, so no deposits are needed there: unbiased
+    complete,   ///< all are kept, and share the light there with patches: unbiased
     paper,      ///< deposits of all depths are dropped: loses light of several bounces
     partition,  ///< deposits of depth 2 and more are kept: unbiased
 };
@@ -57,7 +57,7 @@ struct CameraPose {
     friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
-/// What to look at. The scene and a pilot view of about 1000 receivers decide the options that are empty.
+/// What to look at. The scene and a pilot view of about 2000 receivers decide the options that are empty.
 struct ViewSettings {
     std::optional<CameraPose> camera{};  ///< empty: the scene's
     std::optional<int> width{};          ///< pixels; empty: the scene's
@@ -70,7 +70,7 @@ struct ViewSettings {
     /// processor time. Without it, an empty clamp radius is range / 20.
     bool ray_budget_pilot = true;
     /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
-    /// the scene's, or 8 if the scene has none.
+    /// the scene's, which is 256 if its file sets no limit.
     std::optional<std::uint32_t> max_depth{};
 
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;

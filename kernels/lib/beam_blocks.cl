@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests blocks of four triangles against the segments that meet the box of their leaf. A row with many such
 // lanes is tested triangle by triangle, with the triangles that the shaft may hit. A row with few of them is
-// tested lane by lane, with all four triangles in one vector. (Half of the rows with few lanes have a single
-// one, which is why testing four lanes in one vector was slower.)
+// tested lane by lane, with all four triangles in one vector. Testing four lanes in one vector is no faster,
+// because half of these rows have a single lane.
 #ifndef NEARLIGHT_LIB_BEAM_BLOCKS
 #define NEARLIGHT_LIB_BEAM_BLOCKS
 

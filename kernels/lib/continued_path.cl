@@ -188,7 +188,8 @@ static inline void find_reflected_sample(const SceneView* scene, const SurfaceHi
                     light->is_delta ? -light->pdf : light->pdf, u);
 }
 
-/// The same for all that reflected_light() asks lights with one sample.
+/// Takes what lights send to the first surface of a bundle's path into the draw: each light of which
+/// reflected_light() takes all, and one sample of the others. The path counts `scale` times.
 static inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit,
                                          const SurfaceBsdf* surface, const GlossyPlace* place, uint max_veils,
                                          float scale, uint seed, FoundReflection* found) {

@@ -92,7 +92,7 @@ typedef struct PathRay {
     float passed;   // distance from scattered_at to the last veil
     float index;    // refractive index of what it is in ÷ that of where its path began
     float bundle_ratio;  // rays of a bundle that look for the sky as this one does, for each light sample
-    uint veils;          // passed since then
+    uint veils;          // veils that the ray has passed since it was scattered
 } PathRay;
 
 /// Starts a path that carries all light back along `direction`. Its throughput and pdf are still to be set.

@@ -23,7 +23,7 @@ typedef struct Finds {
     const SceneView* veils;       // the scene of veils alone
 } Finds;
 
-/// Those of a receiver that keeps everything to itself.
+/// The finds of a receiver that leaves nothing to its bundle.
 static inline Finds nothing_shared(void) {
     const Finds finds = {nothing_found(0), nothing_found(0), nothing_found(0), no_reflection_found(), 0, 0};
     return finds;
@@ -32,7 +32,7 @@ static inline Finds nothing_shared(void) {
 /// How far rays from receivers go, and what VPLs bring already.
 typedef struct PathLimits {
     uint max_edges;      // of a path from the receiver to a light: 1 is direct light
-    uint vpl_edges;      // the same of what VPLs bring
+    uint vpl_edges;      // of a path by which VPLs bring light to the receiver
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
     uint path_count;     // rays that each receiver sends

@@ -54,8 +54,8 @@ typedef struct SceneView {
     const global float4* environment_pixels;
     const global float* row_cdf;     // of the environment's rows of blocks (light/environment.cl)
     const global float* column_cdf;  // of the blocks of each row
-    const global float*
-        row_cosines;  // of the polar angles where rows of pixels begin, and where the last ends
+    // Cosines of the polar angles where rows of pixels begin, and where the last row ends.
+    const global float* row_cosines;
     const global uint* block_details;  // for each block, where its part of detail_cdf begins
     const global float* detail_cdf;    // of the rows of a block, and then of the pixels of each row
     const global LightNode* light_nodes;

@@ -80,12 +80,14 @@ static inline const global Vpl* as_vpl(const global SharedLight* light) {
 /// A shared light and a receiver.
 typedef struct SharedConnection {
     float geometry;  // cosθx·cosθy / r² (1/m²); 0 where no ray of the receiver could have found the light
-    float part;      // of the light that VPLs do not bring: 1 − r²/R²
+    float part;      // of the light that VPLs do not bring: 1 − r²/R²; R is the greatest distance
     float cos_light, cos_receiver;  // to the shading normals
 } SharedConnection;
 
+/// Connects a light to a receiver at x with the normal n. Lights count up to the greatest distance, which is
+/// the clamp radius where VPLs bring their light from there on, and infinite where VPLs bring none of it.
 static inline SharedConnection connect_shared(const global SharedLight* light, float3 x, float3 n,
-                                              float clamp_radius_squared) {
+                                              float max_distance_squared) {
     const float3 d = x - load3(light->position);
     const float squared = dot(d, d);
     const float inverse = rsqrt(squared);
@@ -94,10 +96,10 @@ static inline SharedConnection connect_shared(const global SharedLight* light, f
     SharedConnection c;
     c.cos_light = dot(unpack_direction(light->shading), d) * inverse;
     c.cos_receiver = cosine * inverse;
-    const bool open = height > 0.0f && cosine > 0.0f && squared < clamp_radius_squared && c.cos_light > 0.0f;
+    const bool open = height > 0.0f && cosine > 0.0f && squared < max_distance_squared && c.cos_light > 0.0f;
     const float geometry = height * cosine / (squared * squared);
     c.geometry = open && geometry < INFINITY ? geometry : 0.0f;
-    c.part = 1.0f - squared / clamp_radius_squared;
+    c.part = 1.0f - squared / max_distance_squared;
     return c;
 }
 

@@ -21,8 +21,9 @@ namespace nearlight::core {
 
 /// One entry of the table of lights, which lists delta lights (point, spot, projector, directional), then
 /// area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
-/// environment. An entry is chosen with `probability`, in proportion to its emitted power. A sphere or
-/// cylinder is one light, although rays meet the triangles that stand for it.
+/// environment. An entry is chosen with `probability`: each kind of light that there is has the same part,
+/// which its entries share in proportion to their emitted power (host/scene/emitters.h). A sphere or cylinder
+/// is one light, although rays meet the triangles that stand for it.
 ///
 /// Spots and projectors may send an image. Its point (s, t) = ½ + (d·x_axis, d·y_axis)/(d·direction) lies in
 /// the direction d, with t counted from the top row. The intensity of a projector is radiance/cos³ times the

@@ -33,8 +33,8 @@ typedef struct Parameter {
 #define NEARLIGHT_BSDF_MASK 16u       // child[0] with probability reflectance.x (the opacity), otherwise null
 #define NEARLIGHT_BSDF_BLEND 17u      // child[1] with probability reflectance.x, otherwise child[0]
 #define NEARLIGHT_BSDF_TWO_SIDED 18u  // child[0] on the front, child[1] on the back, turned to face it
-#define NEARLIGHT_BSDF_NORMAL_MAP \
-    19u  // child[0] with the normal 2·reflectance − 1 in the frame of the surface
+// child[0] with the normal 2·reflectance − 1 in the frame of the surface
+#define NEARLIGHT_BSDF_NORMAL_MAP 19u
 #define NEARLIGHT_BSDF_BUMP_MAP 20u  // child[0] on a surface displaced by reflectance.x (m) along its normal
 /// Resolving ends after this many steps; loaders refuse deeper nesting.
 #define NEARLIGHT_MAX_BSDF_NESTING 8
@@ -59,8 +59,8 @@ typedef struct Material {
     Parameter reflectance;   // diffuse, plastic, principled: colour of the base; otherwise see the model
     Parameter specular;      // tint of what S reflects; may be above 1
     Parameter transmission;  // tint of what S lets through; may be above 1
-    Parameter
-        roughness;  // x, y: microfacets' α along u and v, 0 is smooth; principled: x: roughness, α's root
+    // x, y: microfacets' α along u and v, 0 is smooth; principled: x: roughness, α's root
+    Parameter roughness;
     // radiance of an area light (front side only), W/(m² sr); that of a child does not count
     Parameter emission;
     Parameter metallic;     // principled: x

@@ -16,14 +16,15 @@ typedef struct SharedLight {
     float weight;   // in proportion to which bundles draw; 0: no light
     Vec3 normal;    // of the mesh
     ushort curve;   // row of the surface's transmission curve
-    ushort veils;   // that are between it and its finder, of a light behind veils
+    ushort veils;   // number of veils between a light behind veils and its finder
     Vec3 radiance;  // W/m²/sr, which it sends to all sides times the curve
     uint shading;   // shading normal, as pack_direction() packs it
 } SharedLight;
-#define NEARLIGHT_SHARED_LIGHTS 64u                           // about how many a bundle uses
-#define NEARLIGHT_SHARED_SKY_LIGHTS 32u                       // the same of those of the sky
-#define NEARLIGHT_SHARED_VEILED_LIGHTS 32u                    // the same of those behind veils
-#define NEARLIGHT_SHARED_LIST (NEARLIGHT_SHARED_LIGHTS + 1u)  // rounding may add one
+#define NEARLIGHT_SHARED_LIGHTS 64u         // about how many near lights a bundle uses
+#define NEARLIGHT_SHARED_SKY_LIGHTS 32u     // about how many lights of the sky a bundle uses
+#define NEARLIGHT_SHARED_VEILED_LIGHTS 32u  // about how many lights behind veils a bundle uses
+/// The room for a bundle's list of lights. Rounding may add one to those that it uses.
+#define NEARLIGHT_SHARED_LIST (NEARLIGHT_SHARED_LIGHTS + 1u)
 
 /// Rays of a bundle that count as one ray of a receiver where the light of the sky is divided between them
 /// and others. The bundle has more, but not all of them can find what the receiver sees, and not all finds
@@ -61,7 +62,7 @@ typedef struct SharedReflection {
     float light_pdf;  // with which light samples of the surface pick this direction, per steradian, or minus
                       // the probability of the delta light, which no ray meets
 } SharedReflection;
-#define NEARLIGHT_SHARED_REFLECTIONS 16u  // about how many a bundle uses
+#define NEARLIGHT_SHARED_REFLECTIONS 16u  // about how many reflections a bundle uses
 /// A lobe must be this many times as wide as the neighbourhood of a receiver looks from the surface. Where it
 /// is narrower, hardly any other receiver has a use for what this one finds, and bundles show as tiles.
 #define NEARLIGHT_GLOSS_REACH 0.3f

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structs that host and kernels share. Both compile this file, so that each struct is defined only once.
 // Rules: structs have no float3 (16 bytes that read as 12), bool, size_t, pointers, bit-fields or enums, and
-// every size is a multiple of 16 bytes. A `layout_probe` kernel and a test compare sizes and offsets on every
-// device.
+// they are aligned to 4 bytes, with no gaps between members. A `layout_probe` kernel and a test compare sizes
+// and offsets on every device.
 #ifndef NEARLIGHT_SHARED_TYPES_H
 #define NEARLIGHT_SHARED_TYPES_H
 
@@ -276,7 +276,7 @@ typedef struct SceneInfo {
     float extent;              // largest side of the scene's bounds, m
     uint has_specular;         // 1: some surface reflects other than by a Lambertian part
     uint has_curves;           // 1: some surface has a transmission curve
-    uint light_node_count;     // 0: no tree of lights, they are chosen by power
+    uint light_node_count;     // 0: no tree of lights, area lights are chosen by power
     uint has_maps;             // 1: some surface has a normal or bump map
     uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
     uint has_sky;              // 1: there is an environment map or a sun

@@ -9,7 +9,7 @@ namespace nearlight::core {
 using uint = std::uint32_t;
 #define NEARLIGHT_SHARED_FUNCTION constexpr
 #else
-#define NEARLIGHT_SHARED_FUNCTION inline
+#define NEARLIGHT_SHARED_FUNCTION static inline
 #endif
 
 /// Three packed floats: a point or a vector in world space, in metres, or a linear sRGB colour.

@@ -167,7 +167,8 @@ void add_products(py::module_& module) {
         .def("__len__", [](const PyVplSet& vpls) { return vpls.get().size(); })
         .def_property_readonly(
             "close_count", [](const PyVplSet& vpls) { return vpls.get().close_count(); },
-            "how many lie on surfaces of the close range")
+            "how many count as those of the close range: patches, and with the policy `complete` deposits "
+            "there too")
         .def("lights", &lights,
              "lights(self)\n--\n\n"
              "Fetches the VPLs: an array of records with the fields position (m) and normal (unit vectors), "

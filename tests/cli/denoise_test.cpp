@@ -60,8 +60,8 @@ TEST_F(RenderDenoised, ChangesTheBeautyAndKeepsItAsALayer) {
                 const bool is_beauty = c < 3;
                 const bool is_broken = x + y == 0 && c == 0;  // the library gives a NaN there
                 const float expected = is_broken ? 0.0f : raw.at(x, y, c) * (is_beauty ? 0.5f : 1.0f);
-                const float tolerance =
-                    is_beauty ? 1e-6f * (1.0f + expected) : 0.0f;  // it is a sum of two layers
+                // The beauty is a sum of two layers.
+                const float tolerance = is_beauty ? 1e-6f * (1.0f + expected) : 0.0f;
                 wrong += std::abs(denoised.at(x, y, c) - expected) <= tolerance ? 0 : 1;
                 wrong += is_beauty && denoised.at(x, y, raw_layer + c) != raw.at(x, y, c) ? 1 : 0;
             }

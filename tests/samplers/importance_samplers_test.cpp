@@ -107,8 +107,8 @@ TEST_P(ImportanceSamplerTest, EvensOutWhatVplsBringToTheCamera) {
                 squares += double(c) * c;
             }
             const double sum = total(contributions);
-            return squares * static_cast<double>(contributions.size()) /
-                   (sum * sum);  // 1: all VPLs bring the same
+            // This is 1 if all VPLs bring the same.
+            return squares * static_cast<double>(contributions.size()) / (sum * sum);
         };
         const double walks = unevenness(SamplerKind::instant_radiosity);
         EXPECT_GT(walks, 2.5);

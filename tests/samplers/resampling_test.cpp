@@ -23,8 +23,8 @@ std::vector<float> random_weights(std::size_t count) {
 TEST(Resampling, KeepsTheExpectationOfAnySum) {
     std::vector<float> weights = random_weights(200);
     weights[17] = 40;  // chosen for certain
-    constexpr int kShifts =
-        4000;  // equidistant shifts integrate the piecewise constant choice almost exactly
+    // Equidistant shifts integrate the piecewise constant choice almost exactly.
+    constexpr int kShifts = 4000;
     for (const std::size_t wanted : {1, 30, 150}) {
         std::vector<double> mean_factor(weights.size());
         std::vector<int> chosen(weights.size());

@@ -52,8 +52,8 @@ TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
     const Vec3 forward = transform_vector(camera.to_world, {0, 0, 1});
     EXPECT_NEAR(forward.z, -1, 1e-6f);
     EXPECT_NEAR(transform_vector(camera.to_world, {0, 1, 0}).y, 1, 1e-6f);
-    const SceneCamera from_above =
-        load({.origin = std::array{0.0, 9.0, 0.0}}).camera;  // at the middle, (0, 0, 0)
+    // The camera looks at the middle, (0, 0, 0).
+    const SceneCamera from_above = load({.origin = std::array{0.0, 9.0, 0.0}}).camera;
     EXPECT_NEAR(transform_vector(from_above.to_world, {0, 0, 1}).y, -1, 1e-6f);
     expect_refused({.origin = std::array{1.0, 2.0, 3.0}, .target = std::array{1.0, 2.0, 3.0}},
                    "its target is its origin");

@@ -30,7 +30,7 @@ FinishedBand numbered(uint index) {
 
 BandWorker steady(const std::string& name, std::chrono::milliseconds pause = 0ms) {
     return {name, [pause] {
-                return [pause](uint index, const BandProgress& progress) -> std::optional<FinishedBand> {
+                return [pause](uint index, const WorkProgress& progress) -> std::optional<FinishedBand> {
                     std::this_thread::sleep_for(pause);
                     return progress(0.5) ? std::optional(numbered(index)) : std::nullopt;
                 };
@@ -40,7 +40,7 @@ BandWorker steady(const std::string& name, std::chrono::milliseconds pause = 0ms
 /// A worker that finishes `good` bands, then throws in the next one.
 BandWorker failing_after(const std::string& name, uint good) {
     return {name, [good] {
-                return [left = good](uint index, const BandProgress&) mutable -> std::optional<FinishedBand> {
+                return [left = good](uint index, const WorkProgress&) mutable -> std::optional<FinishedBand> {
                     if (left-- == 0) {
                         throw Error(ErrorKind::failure, "the device was unplugged");
                     }
@@ -65,7 +65,7 @@ struct Result {
 
 Result share(
     const std::vector<BandWorker>& workers, uint window = kBands,
-    const BandProgress& progress = [](double) { return true; }) {
+    const WorkProgress& progress = [](double) { return true; }) {
     Result result;
     result.outcome = share_bands(
         kBands, window, workers,
@@ -125,7 +125,7 @@ TEST(BandSharing, TheWindowBoundsHowFarAheadBandsAreBegun) {
     uint received = 0;
     uint farthest = 0;
     const BandWorker watcher{"watcher", [&] {
-                                 return [&](uint index, const BandProgress&) -> std::optional<FinishedBand> {
+                                 return [&](uint index, const WorkProgress&) -> std::optional<FinishedBand> {
                                      const std::lock_guard lock(mutex);
                                      farthest = std::max(farthest, index - std::min(received, index));
                                      return numbered(index);
@@ -161,7 +161,7 @@ TEST(BandSharing, OneThatFailsWhenAllElseIsDoneIsReplacedToo) {
     std::latch taken(1);
     uint others_done = 0;
     const BandWorker doomed{"doomed", [&] {
-                                return [&](uint index, const BandProgress&) -> std::optional<FinishedBand> {
+                                return [&](uint index, const WorkProgress&) -> std::optional<FinishedBand> {
                                     EXPECT_EQ(index, 0u);
                                     taken.count_down();
                                     std::this_thread::sleep_for(60ms);
@@ -170,7 +170,7 @@ TEST(BandSharing, OneThatFailsWhenAllElseIsDoneIsReplacedToo) {
                             }};
     const BandWorker sound{"sound", [&] {
                                taken.wait();
-                               return [&](uint index, const BandProgress&) -> std::optional<FinishedBand> {
+                               return [&](uint index, const WorkProgress&) -> std::optional<FinishedBand> {
                                    ++others_done;
                                    return numbered(index);
                                };
@@ -252,7 +252,7 @@ TEST(BandSharing, AReservedBandIsItsWorkersFirst) {
     BandWorker reserving = behind(gate, steady("reserving"));
     reserving.first_band = 7;
     reserving.start = [&, start = reserving.start] {
-        return [&, make = start()](uint index, const BandProgress& progress) {
+        return [&, make = start()](uint index, const WorkProgress& progress) {
             {
                 const std::lock_guard lock(mutex);
                 made.push_back(index);

@@ -9,11 +9,10 @@
 //  1. the mean over the whole picture, for each colour channel, shows a wrong normalisation;
 //  2. means over 4 × 4 and 8 × 8 blocks show light lost in a corner;
 //  3. each pixel shows a wrong edge. Pixels that few paths light have a long-tailed distribution, whose
-//  sample
-//     variance is mostly too small, so a pixel's variance counts as at least the mean of its block of 4 × 4;
+//     sample variance is mostly too small, so a pixel's variance counts as at least the mean of its block of
+//     4 × 4;
 //  4. the mean over all pixels and channels of z², which is 1 without bias, shows a small bias everywhere
-//  that
-//     no single pixel shows. Its spread is not that of χ², because pixels depend on each other; it is
+//     that no single pixel shows. Its spread is not that of χ², because pixels depend on each other; it is
 //     estimated from the products of pairs of renders [Chen and Qin, A two-sample test for high-dimensional
 //     data with applications to gene-set testing, 2010]. The bound is that of the worst dependence, in which
 //     all pixels change together.
@@ -32,8 +31,8 @@ inline constexpr double kFalseAlarm = 1e-4;
 struct Verdict {
     bool agrees = true;
     std::string reason;  ///< what differs most, and by how much
-    double relative_error =
-        0;            ///< standard error of the whole picture's mean ÷ mean: what can be told at all
+    /// The standard error of the whole picture's mean ÷ mean, which says what can be told at all.
+    double relative_error = 0;
     double bias = 0;  ///< whole mean ÷ expected − 1, of the channels' sum
 };
 

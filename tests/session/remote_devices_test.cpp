@@ -59,7 +59,7 @@ class OtherSession {
                     EXPECT_TRUE(ordered_.insert({picture, device, band}).second);
                 },
             .fetch = [this](PictureNumber picture, std::size_t device, uint band,
-                            const BandProgress& progress) { return fetch(picture, device, band, progress); },
+                            const WorkProgress& progress) { return fetch(picture, device, band, progress); },
             .end = [this](PictureNumber picture) { EXPECT_EQ(pictures_.erase(picture), 1u); }};
         for (std::size_t i = 0; i < count; ++i) {
             remote.devices.push_back(session_.own_devices().front());
@@ -88,7 +88,7 @@ class OtherSession {
         return shown_;
     }
     std::optional<FinishedBand> fetch(PictureNumber picture, std::size_t device, uint band,
-                                      const BandProgress& progress) {
+                                      const WorkProgress& progress) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return shown_ >= std::min(picture + 1, awaited); });
         if (device == 0 && good_bands-- == 0) {

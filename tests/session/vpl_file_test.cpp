@@ -94,7 +94,8 @@ TEST_F(VplFiles, AreForTheirSceneDepthAndSinglePassOnly) {
         RenderSettings settings = with_file(few_vpls());
         settings.view.max_depth = 3;
         expect_error([&] { render_image(session, settings); }, ErrorKind::file,
-                     "give --max-depth " + std::to_string(kUnlimitedPathDepth));
+                     "made for a maximum depth of " + std::to_string(kUnlimitedPathDepth) + ", not of 3");
+        EXPECT_EQ(test::error_of([&] { render_image(session, settings); }).setting(), "max_depth");
         settings = with_file(few_vpls());
         settings.passes = 2;
         expect_error([&] { render_image(session, settings); }, ErrorKind::invalid_argument,

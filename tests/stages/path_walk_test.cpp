@@ -87,8 +87,8 @@ TEST_F(PathWalkTest, ShortWalksFindLampsByRaysToo) {
     Material lamp = lambertian({0, 0, 0});
     lamp.emission = parameter_of(Vec3{1, 2, 3});
     add_quad(scene, {-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, add_material(scene, lamp));
-    const double quarter =
-        std::sqrt(0.5) * std::atan(std::sqrt(0.5));  // ∫ cos²θ/r² over a quarter of the lamp
+    // ∫ cos²θ/r² over a quarter of the lamp
+    const double quarter = std::sqrt(0.5) * std::atan(std::sqrt(0.5));
     on_each_ray_tree([&](Device& device) {
         EXPECT_NEAR(walked_light(device, scene, 1, 1), 2 * 4 * quarter, 0.01 * 2 * 4 * quarter);
     });

@@ -9,7 +9,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr std::array kFields{
-    TunableField{"packet_width", &Tunables::beam_width, 16, 256, true},
+    TunableField{"beam_width", &Tunables::beam_width, 16, 256, true},
     TunableField{"local_size", &Tunables::local_size, 1, 256, true},
     TunableField{"run_local_size", &Tunables::run_local_size, 1, 256, true},
     TunableField{"runs_per_unit", &Tunables::runs_per_unit, 1, 1024, false},

@@ -16,7 +16,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr const char* kHead = "nearlight tunables 2";
+constexpr const char* kHead = "nearlight tunables 3";
 
 /// A hash of the text of kernel files, followed by their names, so that a reader of the key can compute it
 /// again.

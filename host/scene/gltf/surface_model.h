@@ -11,8 +11,8 @@ namespace nearlight::core::gltf {
 struct SurfaceModel {
     Parameter color = parameter_of(1.0f);
     Parameter opacity = parameter_of(1.0f);
-    Parameter vertex_opacity =
-        parameter_of(1.0f);  ///< from the alpha of vertices, which multiplies the other
+    /// From the alpha of vertices, which multiplies the other opacity.
+    Parameter vertex_opacity = parameter_of(1.0f);
     Parameter metallic = parameter_of(0.0f);
     Parameter roughness = parameter_of(1.0f);  ///< perceptual: the square root of GGX's α
     Parameter emission = parameter_of(0.0f);   ///< a radiance

@@ -44,9 +44,8 @@ class TextureMaker {
                           const TextureSets& sets, uint flags = 0, float cutoff = 0.0f);
     /// A parameter of the colours of vertices times `value`.
     Parameter vertex_color(Vec3 value);
-    /// A parameter of the number that vertices have as the first of their second texture coordinates, from 0
-    /// to
-    /// 1. Above a cutoff that is not 0 it counts as 1, below as 0.
+    /// A parameter of the number that vertices have as the first of their second texture coordinates, in
+    /// [0, 1]. Above a cutoff that is not 0 it counts as 1, below as 0.
     Parameter vertex_number(float cutoff);
     /// The mean of a parameter over its texture.
     [[nodiscard]] Vec3 mean(const Parameter& parameter) const;

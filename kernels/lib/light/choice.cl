@@ -61,7 +61,7 @@ static inline CdfRange area_light_share(const SceneView* scene) {
 }
 
 /// Chooses among the lights that are not summed exactly, for a receiver at x with the normal n (zero: light
-/// counts from all sides); there must be a light. All area lights together have the share of their power, and
+/// counts from all sides); there must be a light. All area lights together have the part of their kind, and
 /// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
 /// ~0u if the choice brings nothing.
 static inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {

@@ -168,6 +168,7 @@ typedef struct MapSample {
     float pdf;         // with which sample_map() chooses the direction, per steradian; 0 without a map
 } MapSample;
 
+/// A given direction, with its place on the map and the density with which the tables choose it.
 static inline MapSample map_sample_towards(const SceneView* scene, float3 direction) {
     MapSample sample;
     sample.direction = direction;
@@ -181,7 +182,8 @@ static inline MapSample map_sample_towards(const SceneView* scene, float3 direct
     return sample;
 }
 
-/// A direction that is uniform over the sun's disc.
+/// A direction that is uniform over the sun's disc, with its place on the map and the density with which the
+/// tables choose it.
 static inline MapSample map_sample_towards_sun(const SceneView* scene, float2 u) {
     return map_sample_towards(scene, sample_sun(scene, u));
 }

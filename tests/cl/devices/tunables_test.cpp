@@ -128,11 +128,10 @@ TEST(Tunables, DamagedFilesAreRefusedWithAWarning) {
     };
     for (const std::string& text :
          {std::string(), std::string("rubbish"), whole.substr(0, whole.find("launch_ms")),
-          with("packet_width 32", "packet_width 33"), with("packet_width 32", "packet_width 512"),
-          with("packet_width 32", "packet_width -32"), with("packet_width 32", "packet_width 32 or so"),
-          with("packet_width 32", "packet_width"),
-          with("runs_per_unit 7", "runs_per_unit 99999999999999999999"),
-          with("runs_per_unit 7", "local_size 8"), with("tunables 2", "tunables 1")}) {
+          with("beam_width 32", "beam_width 33"), with("beam_width 32", "beam_width 512"),
+          with("beam_width 32", "beam_width -32"), with("beam_width 32", "beam_width 32 or so"),
+          with("beam_width 32", "beam_width"), with("runs_per_unit 7", "runs_per_unit 99999999999999999999"),
+          with("runs_per_unit 7", "local_size 8"), with("tunables 3", "tunables 2")}) {
         std::ofstream(file) << text;
         const ChosenTunables chosen = choose_tunables(make_entry(), folder.path(), {});
         EXPECT_EQ(chosen.values, tunables_row(DeviceKind::cpu).values) << text;
