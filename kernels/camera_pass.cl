@@ -74,6 +74,7 @@ static inline CameraPath start_path(const global Camera* camera, uint x, uint y,
     const CameraSample start = camera_sample(camera, x, y, sample, sequence_length, seed);
     CameraPath path;
     path.key = start.key;
+    path.pixel_key = start.pixel_key;
     path.sample = sample;
     path.ray = first_ray(start.ray.direction);
     begin_ray(&path.ray, start.ray.origin, start.ray.direction, 0.0f);
@@ -93,7 +94,7 @@ static inline void set_receiver(const SceneView* scene, const global CloseRange*
     receiver->position = offset_point(scene, hit->position, hit->geometric);
     receiver->normal = surface->frame.n;
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT |
-                        path->sample % NEARLIGHT_SEQUENCE_RECEIVERS << NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
+                        sequence_index(path) << NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
     receiver->sequence = path->sequence;
     receiver->mesh_normal = surface->mapped ? pack_mesh_normal(surface->unmapped) : 0;
     receiver->vertex.throughput = store3(path->ray.throughput);
@@ -118,11 +119,16 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
                                uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
-    const PathLimits ray = {
-        max_edges, max_edges, INFINITY, min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES), 1, 0, 0};
+    const PathLimits ray = {max_edges,
+                            max_edges,
+                            INFINITY,
+                            min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
+                            1,
+                            0,
+                            sequence_index(path)};
     Finds finds = nothing_shared();
-    const ReceivedLight light =
-        received_light(scene, &at, &ray, random_uint4((uint4)(path->key, max_edges, 0x7ace5u, 0x3u)), &finds);
+    const ReceivedLight light = received_light(
+        scene, &at, &ray, random_uint4((uint4)(path->sequence, max_edges, 0x7ace5u, 0x3u)), &finds);
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
     path->emitted += response * light.direct;
     path->traced += response * light.indirect;
@@ -162,7 +168,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
             receiver.vertex.depth = hit.t;
             receiver.vertex.flags = path->flags;
         }
-        const SurfaceNumbers numbers = surface_numbers(path->key, step);
+        const SurfaceNumbers numbers = surface_numbers(path, step);
         const SurfaceBsdf surface = surface_bsdf(scene, &hit, path->ray.direction, path->mode, numbers.model);
         float3 albedo;
         LightQuota quota = quota_at(limits, step);

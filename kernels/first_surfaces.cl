@@ -19,7 +19,7 @@ static inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, cons
         max_component(emitted_radiance(scene, hit)) > 0.0f) {
         return false;
     }
-    const float u = to_unit_float(surface_random(start->key, step).x);
+    const float u = model_number(start->number, surface_key(start->pixel_key, step));
     return surface_bsdf(scene, hit, start->ray.direction, BSDF_CAMERA, u).bsdf.model == NEARLIGHT_BSDF_NULL;
 }
 

@@ -15,7 +15,8 @@ typedef struct CameraPath {
     PathRay ray;
     float3 emitted;
     float3 traced;   // indirect light of a path that is traced to its end
-    uint key;        // key of the random sequence
+    uint key;        // of the path's own random numbers
+    uint pixel_key;  // of the sequences that all samples of the pixel share
     uint sample;     // of the pixel
     uint sequence;   // key of the random numbers that receivers of the pixel share, of one branch
     uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
@@ -53,20 +54,27 @@ typedef struct SurfaceNumbers {
     float part;   // D or S
     float lobe;   // within S
     float2 direction;
-    uint light_seed;
-    float end;  // whether the path ends by chance
+    uint light_key;  // of the sequence of light samples
+    float end;       // whether the path ends by chance
 } SurfaceNumbers;
 
-static inline SurfaceNumbers surface_numbers(uint key, uint step) {
-    const uint4 random = surface_random(key, step);
+/// Both branches of a sample have the same numbers, because they are one path up to where they divide.
+static inline SurfaceNumbers surface_numbers(const CameraPath* path, uint step) {
+    const uint key = surface_key(path->pixel_key, step);
+    const float2 way = sample_2d(path->sample, DIMENSION_OF_WAYS, key);
     SurfaceNumbers numbers;
-    numbers.model = to_unit_float(random.x);
-    numbers.part = sample_2d(0, 2 * step + 2, key).x;
-    numbers.lobe = to_unit_float(random.y);
-    numbers.direction = sample_2d(0, 2 * step + 1, key);
-    numbers.light_seed = random.z;
-    numbers.end = to_unit_float(random.w);
+    numbers.model = model_number(path->sample, key);
+    numbers.part = way.x;
+    numbers.lobe = way.y;
+    numbers.direction = sample_2d(path->sample, DIMENSION_OF_DIRECTIONS, key);
+    numbers.light_key = key;
+    numbers.end = to_unit_float(random_uint4((uint4)(path->key, step, 0x9d5u, 0x1u)).x);
     return numbers;
+}
+
+/// Which of the receivers of the pixel that share a sequence is that of this sample.
+static inline uint sequence_index(const CameraPath* path) {
+    return path->sample % NEARLIGHT_SEQUENCE_RECEIVERS;
 }
 
 /// How many of `max_count` light samples a surface takes whose S reflects `specular`: fewer where its light
@@ -99,18 +107,18 @@ static inline LightQuota surface_quota(const SceneView* scene, const CameraPath*
 
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
-/// branch 1 the reflection.
+/// branch 1 the reflection. The light samples of the pixel's samples are `max_light_samples` numbers apart.
 static inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                                    const SurfaceBsdf* surface, uint branch, LightQuota quota,
-                                   const SurfaceNumbers* numbers) {
+                                   uint max_light_samples, const SurfaceNumbers* numbers) {
     if (quota.samples == 0) {
         return WAY_END;
     }
     path->emitted +=
-        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota, numbers->light_seed);
-    path->emitted +=
-        looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
-                         path->sample % NEARLIGHT_SEQUENCE_RECEIVERS * (quota.rays - 1), path->sequence);
+        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota,
+                                               path->sample * max_light_samples, numbers->light_key);
+    path->emitted += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
+                                      sequence_index(path) * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
     const float reflected = reflection_probability(surface, numbers->direction);
     if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
@@ -140,6 +148,7 @@ static inline uint follow_surface(const SceneView* scene, CameraPath* path, cons
         quota->bundle_rays = 0;
         return has_diffuse ? WAY_RECEIVER : WAY_END;
     }
+    const uint max_light_samples = quota->samples;
     *quota = surface_quota(scene, path, surface, specular, has_diffuse, *quota);
     if (has_diffuse) {
         const float share = luminance(specular) / (luminance(specular) + luminance(*albedo));
@@ -147,7 +156,7 @@ static inline uint follow_surface(const SceneView* scene, CameraPath* path, cons
             return WAY_RECEIVER;
         }
     }
-    return follow_specular(scene, path, hit, surface, branch, *quota, numbers);
+    return follow_specular(scene, path, hit, surface, branch, *quota, max_light_samples, numbers);
 }
 
 /// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths

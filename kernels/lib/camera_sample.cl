@@ -11,7 +11,9 @@
 typedef struct CameraSample {
     FilmSample film;
     CameraRay ray;
-    uint key;  // of the random numbers of the path
+    uint number;     // of the sample
+    uint key;        // of the path's own random numbers
+    uint pixel_key;  // of the sequences that all samples of the pixel share
 } CameraSample;
 
 /// Sample number `sample` of pixel (x, y), of the `sequence_length` samples that have the seed.
@@ -19,18 +21,30 @@ static inline CameraSample camera_sample(const global Camera* camera, uint x, ui
                                          uint sequence_length, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraSample start;
+    start.number = sample;
     start.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
-    const uint pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
+    start.pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
     // A single sample goes through the centre of its pixel, but through any part of the lens.
-    start.film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, pixel_key))
+    start.film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, start.pixel_key))
                                      : middle_of_pixel(x, y);
-    start.ray = camera_ray(camera, start.film.position, sample_2d(sample, 1, pixel_key));
+    start.ray = camera_ray(camera, start.film.position, sample_2d(sample, 1, start.pixel_key));
     return start;
 }
 
-/// Random numbers of a path at surface number `step`. The first of them decides at masks and blends.
-static inline uint4 surface_random(uint key, uint step) {
-    return random_uint4((uint4)(key, step, 0x5f3759u, 0x1u));
+/// The key of the sequences that the samples of a pixel share at surface number `step`. Samples mostly meet
+/// the same surfaces, so that what they choose there is evenly spread over all of them.
+static inline uint surface_key(uint pixel_key, uint step) {
+    return random_uint4((uint4)(pixel_key, step, 0x5f3759u, 0x1u)).x;
+}
+
+// What the dimensions of these sequences are for. Light samples have 0 and 1 (lib/path_ray.cl).
+#define DIMENSION_OF_WAYS 2  // between D and S, and within S
+#define DIMENSION_OF_DIRECTIONS 3
+#define DIMENSION_OF_MODELS 4
+
+/// The number in [0, 1) by which a sample decides between the parts of masks and blends.
+static inline float model_number(uint sample, uint surface_key) {
+    return sample_2d(sample, DIMENSION_OF_MODELS, surface_key).x;
 }
 
 static inline bool is_emitter(const SceneView* scene, const SurfaceHit* hit) {

@@ -128,7 +128,7 @@ static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* 
         if (scale != 0.0f) {
             const uint edges = length == 0 ? share->max_edges : way->max_edges;
             const LightQuota quota = {1, 1, edges - surfaces - 1, 0};
-            sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
+            sum += scale * reflected_light(scene, hit, surface, parts, &quota, 0, seed);
         }
     }
     return sum;

@@ -57,9 +57,10 @@ typedef struct LightQuota {
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
 /// from lights or through veils, as far as light samples bring it: rays that follow the BSDF bring the rest.
+/// `first` is the number of the first light sample in the sequence of `key`.
 static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit,
                                      const SurfaceBsdf* surface, uint parts, const LightQuota* quota,
-                                     uint seed) {
+                                     uint first, uint key) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
@@ -72,8 +73,8 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
     const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < quota->samples; ++s) {
-        const LightSample light = sample_light(scene, hit->position, surface->frame.n, sample_2d(s, 0, seed),
-                                               sample_2d(s, 1, seed));
+        const LightSample light = sample_light(scene, hit->position, surface->frame.n,
+                                               sample_2d(first + s, 0, key), sample_2d(first + s, 1, key));
         sum +=
             reflected_sample(scene, hit, surface, &light, parts, path_ratio, bundle_ratio, quota->max_veils);
     }

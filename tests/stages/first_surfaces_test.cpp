@@ -146,6 +146,12 @@ TEST_F(FirstSurfacesTest, HolesOfMasksLetSamplesThrough) {
         EXPECT_NEAR(share, 0.3, 0.035);  // five standard deviations of 4292 samples
         EXPECT_EQ(std::ranges::count_if(found, of_mask) + std::ranges::count_if(found, of_wall),
                   static_cast<long>(found.size()));
+        // Of each sixteenth of the numbers from 0 to 1, a pixel has one.
+        const std::vector<uint> sixteen = see(device, scene, whole_picture(16));
+        for (auto pixel = sixteen.begin(); pixel != sixteen.end(); pixel += 16) {
+            const auto seen = std::count_if(pixel, pixel + 16, of_mask);
+            ASSERT_TRUE(seen == 4 || seen == 5) << seen << " of 16 is not about 0.3";
+        }
     });
 }
 
