@@ -102,13 +102,13 @@ static inline void set_receiver(const SceneView* scene, const global CloseRange*
     receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
 }
 
-/// What the surface at a step may ask of lights. One that paths must not leave reflects no light of lamps,
-/// but it shows in the other layers.
-static inline LightQuota quota_at(const CameraLimits* limits, uint step) {
+/// What the surface at a step of a sample's path may ask of lights. One that paths must not leave reflects no
+/// light of lamps, but it shows in the other layers.
+static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sample) {
     const bool is_last = step + 1 >= limits->max_edges;
     const LightQuota quota = {is_last ? 0 : limits->light_samples, limits->light_rays,
                               is_last ? 0 : limits->max_edges - step - 2,
-                              is_last || step > 0 ? 0 : limits->bundle_rays};
+                              is_last || step > 0 ? 0 : limits->bundle_rays, sample * limits->light_samples};
     return quota;
 }
 
@@ -171,7 +171,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
         const SurfaceNumbers numbers = surface_numbers(path, step);
         const SurfaceBsdf surface = surface_bsdf(scene, &hit, path->ray.direction, path->mode, numbers.model);
         float3 albedo;
-        LightQuota quota = quota_at(limits, step);
+        LightQuota quota = quota_at(limits, step, path->sample);
         const uint way = follow_surface(scene, path, &hit, &surface, branch, &quota, &numbers, &albedo);
         const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
         if (way == WAY_RECEIVER && is_weak) {

@@ -140,6 +140,13 @@ void for_each_connection(const SharedLightCase& data, const std::function<bool(V
     }
 }
 
+/// The part of a shared light that the curves of its surface and of the receiver's let through.
+double curves_part(const SharedLightCase& data, const Connection& c,
+                   const std::function<double(double)>& transmission) {
+    return (data.found[c.light].curve == 1 ? transmission(c.pair.cos_light) : 1.0) *
+           (curve_of(data, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+}
+
 std::optional<double> every_path(std::size_t /*light*/, std::size_t /*receiver*/) {
     return 1.0;
 }
@@ -197,10 +204,45 @@ std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
     std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
     for_each_connection(data, is_visible, every_path, [&](const Connection& c) {
         const SharedLight& light = data.found[c.light];
-        const double weight = c.pair.part * c.pair.geometry / c.density *
-                              (light.curve == 1 ? transmission(c.pair.cos_light) : 1.0) *
-                              (curve_of(data, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+        const double weight = c.pair.part * c.pair.geometry / c.density * curves_part(data, c, transmission);
         result[c.receiver] += light.radiance * static_cast<float>(weight);
+    });
+    return result;
+}
+
+SharedLightCase make_veiled_lights(std::vector<ReceiverPacket> receivers, const VeilsOracle& veils,
+                                   const std::function<bool(Vec3, Vec3)>& is_clear) {
+    SharedLightCase data{.receivers = std::move(receivers),
+                         .found = {},
+                         .clamp_radius = std::numeric_limits<float>::infinity()};
+    vary(data.receivers);
+    place_lights(data, 8, is_clear, [&](std::size_t, std::size_t, Pcg32& random) {
+        const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
+        return receiver_at(data.receivers, random.next() % count);
+    });
+    for (std::size_t i = 0; i < data.found.size(); ++i) {
+        SharedLight& light = data.found[i];
+        light.veils =
+            static_cast<ushort>(veils(light.position, receiver_at(data.receivers, i).position).count);
+    }
+    return data;
+}
+
+std::vector<Vec3> veiled_irradiance(const SharedLightCase& data,
+                                    const std::function<bool(Vec3, Vec3)>& is_visible,
+                                    const VeilsOracle& veils,
+                                    const std::function<double(double)>& transmission) {
+    std::vector<Vec3> result(data.receivers.size() * NEARLIGHT_PACKET_SIZE, Vec3{0, 0, 0});
+    const auto between = [&](std::size_t light, std::size_t receiver) {
+        return veils(data.found[light].position, receiver_at(data.receivers, receiver).position);
+    };
+    const auto behind_as_many = [&](std::size_t light, std::size_t receiver) {
+        return between(light, receiver).count == data.found[light].veils ? std::optional(1.0) : std::nullopt;
+    };
+    for_each_connection(data, is_visible, behind_as_many, [&](const Connection& c) {
+        const double weight = between(c.light, c.receiver).part * c.pair.geometry / c.density *
+                              curves_part(data, c, transmission);
+        result[c.receiver] += data.found[c.light].radiance * static_cast<float>(weight);
     });
     return result;
 }
@@ -214,7 +256,7 @@ std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radian
         const double of_bundle = NEARLIGHT_SKY_RAYS * own;
         const double of_samples = light_samples / (4 * static_cast<double>(kPi));
         const double weight = of_bundle / (of_bundle + own + of_samples) * c.pair.geometry / c.density *
-                              (curve_of(data, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+                              curves_part(data, c, transmission);
         result[c.receiver] += radiance * static_cast<float>(weight);
     });
     return result;
@@ -276,9 +318,7 @@ std::vector<Vec3> reflected_irradiance(const SharedReflectionCase& data, const S
         return of_lights < 0 ? -of_lights : of_lights + g.pdf;
     };
     for_each_connection(data.lights, is_visible, paths, [&](const Connection& c) {
-        const double weight =
-            c.pair.geometry / c.density *
-            (curve_of(data.lights, c.receiver) == 1 ? transmission(c.pair.cos_receiver) : 1.0);
+        const double weight = c.pair.geometry / c.density * curves_part(data.lights, c, transmission);
         result[c.receiver] +=
             as_float(gloss(c.light, c.receiver).value * weight) * data.lights.found[c.light].radiance;
     });

@@ -44,6 +44,26 @@ std::vector<Vec3> shared_sky_irradiance(const SharedLightCase& data, Vec3 radian
                                         const std::function<bool(Vec3, Vec3)>& is_visible,
                                         const std::function<double(double)>& transmission);
 
+/// The veils between a light and a receiver, and the part of light that they let through.
+struct VeilsBetween {
+    uint count;
+    double part;
+};
+using VeilsOracle = std::function<VeilsBetween(Vec3 from, Vec3 to)>;
+
+/// As make_shared_lights(), with lights at receivers of all bundles. Each has the number of veils that stand
+/// before the receiver which found it.
+SharedLightCase make_veiled_lights(std::vector<ReceiverPacket> receivers, const VeilsOracle& veils,
+                                   const std::function<bool(Vec3, Vec3)>& is_clear);
+
+/// Irradiance of each receiver: Σ_j L_j·P·G·V·T·T / p(j), p(j) = m/π · Σ_s G·V, over the receivers s of the
+/// bundle that share and that as many veils hide as SharedLight::veils says. P is the part of light that they
+/// let through, and the other symbols are those of shared_irradiance(). `is_visible` looks past veils.
+std::vector<Vec3> veiled_irradiance(const SharedLightCase& data,
+                                    const std::function<bool(Vec3, Vec3)>& is_visible,
+                                    const VeilsOracle& veils,
+                                    const std::function<double(double)>& transmission);
+
 /// Lights of a case as reflections: radiance arrives at their places, on surfaces with gloss.
 struct SharedReflectionCase {
     SharedLightCase lights;

@@ -113,6 +113,8 @@ void check_local_lights(Device& device, CheckResult& result);
 void check_shared_lights(Device& device, CheckResult& result);
 /// As check_shared_lights(), for light of the sky.
 void check_shared_sky(Device& device, CheckResult& result);
+/// As check_shared_lights(), for light of places behind masks.
+void check_shared_veiled(Device& device, CheckResult& result);
 /// As check_shared_lights(), for light that metal reflects.
 void check_shared_reflections(Device& device, CheckResult& result);
 

@@ -33,6 +33,7 @@ std::vector<NamedCheck> all_checks() {
             {"paths of receivers", check_receiver_paths},
             {"shared lights", check_shared_lights},
             {"shared sky", check_shared_sky},
+            {"shared veiled", check_shared_veiled},
             {"shared reflections", check_shared_reflections},
             {"light tracing", check_light_tracing},
             {"VPL contribution", check_vpl_contribution},

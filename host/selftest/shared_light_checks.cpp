@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/checks.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <vector>
 
 #include "host/base/receivers.h"
 #include "host/reference/edge_excuse.h"
@@ -13,6 +16,7 @@
 #include "host/stages/shared_lights.h"
 #include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
+#include "host/stages/shared_veiled.h"
 
 namespace nearlight::core {
 namespace {
@@ -56,6 +60,54 @@ Scene room_of_metal() {
     }
     return scene;
 }
+
+/// Two masks of an even opacity that divide the room into three storeys.
+struct Storeys {
+    static constexpr double kOpacity = 0.4;
+
+    explicit Storeys(const Scene& room) : box(bounds(room)) {
+        for (const float part : {0.35f, 0.65f}) {
+            heights.push_back(box.min.y + part * (box.max.y - box.min.y));
+        }
+    }
+    [[nodiscard]] VeilsBetween between(Vec3 from, Vec3 to) const {
+        VeilsBetween veils{0, 1.0};
+        for (const float height : heights) {
+            if ((from.y < height) != (to.y < height)) {
+                ++veils.count;
+                veils.part *= 1.0 - kOpacity;
+            }
+        }
+        return veils;
+    }
+    /// Whether single precision is sure on which storey a place is.
+    [[nodiscard]] bool is_sure(Vec3 place) const {
+        return std::ranges::all_of(heights, [&](float height) {
+            return std::abs(place.y - height) > kSegmentEdgeTolerance * max_component(box.size());
+        });
+    }
+    /// The room with the masks, which reach beyond its walls.
+    [[nodiscard]] Scene divided(Scene room) const {
+        const auto child = static_cast<uint>(room.materials.size());
+        room.materials.push_back(diffuse_material({0, 0, 0}));
+        room.materials.push_back(mask_material(parameter_of(static_cast<float>(kOpacity)), child));
+        const Vec3 size = box.size() * 1.2f;
+        for (const float height : heights) {
+            const Vec3 corner{box.min.x - 0.1f * size.x, height, box.min.z - 0.1f * size.z};
+            const auto first = static_cast<uint>(room.vertices.size());
+            for (const Vec3 offset :
+                 {Vec3{0, 0, 0}, Vec3{0, 0, size.z}, Vec3{size.x, 0, size.z}, Vec3{size.x, 0, 0}}) {
+                room.vertices.push_back({corner + offset, 0.0f, {0, 1, 0}, 0.0f});
+            }
+            room.triangles.push_back({first, first + 1, first + 2, child + 1});
+            room.triangles.push_back({first, first + 2, first + 3, child + 1});
+        }
+        return room;
+    }
+
+    Aabb box;
+    std::vector<float> heights{};
+};
 
 /// A room, and the two questions of the oracle.
 struct Room {
@@ -133,6 +185,35 @@ void check_shared_sky(Device& device, CheckResult& result) {
         SharedLightLists lists(device, kernel);
         SharedSky(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
                               {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
+        expect_irradiance(irradiance, wanted, result);
+    }
+}
+
+void check_shared_veiled(Device& device, CheckResult& result) {
+    const Room solids(room_with_a_curve());
+    const Storeys storeys(solids.scene);
+    const Room room(storeys.divided(solids.scene));
+    const VeilsOracle veils = [&](Vec3 from, Vec3 to) { return storeys.between(from, to); };
+    const SharedLightCase data =
+        make_veiled_lights(make_camera_receivers(solids.scene, solids.bvh, 48, 48), veils,
+                           [&, is_clear = room.is_clear()](Vec3 from, Vec3 to) {
+                               return storeys.is_sure(from) && storeys.is_sure(to) && is_clear(from, to);
+                           });
+    const std::vector<Vec3> wanted = veiled_irradiance(data, solids.is_visible(), veils, transmission);
+    const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+                                        .max_edges = data.max_edges,
+                                        .clamp_radius = 1.0f,
+                                        .seed = 1,
+                                        .shares_veiled = true};
+    const Buffer<ReceiverPacket> receivers(device, data.receivers);
+    const Buffer<SharedLight> lights(device, data.found);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
+        Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
+        irradiance.fill_zero();
+        SharedLightLists lists(device, kernel);
+        SharedVeiled(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
+                                 irradiance);
         expect_irradiance(irradiance, wanted, result);
     }
 }

@@ -107,16 +107,15 @@ static inline LightQuota surface_quota(const SceneView* scene, const CameraPath*
 
 /// Follows the path by the part S of a surface, after adding what light samples find in it. Where S both
 /// reflects and lets light through, the first division of the path gives branch 0 what is let through and
-/// branch 1 the reflection. The light samples of the pixel's samples are `max_light_samples` numbers apart.
+/// branch 1 the reflection.
 static inline uint follow_specular(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                                    const SurfaceBsdf* surface, uint branch, LightQuota quota,
-                                   uint max_light_samples, const SurfaceNumbers* numbers) {
+                                   const SurfaceNumbers* numbers) {
     if (quota.samples == 0) {
         return WAY_END;
     }
     path->emitted +=
-        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota,
-                                               path->sample * max_light_samples, numbers->light_key);
+        path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota, numbers->light_key);
     path->emitted += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
                                       sequence_index(path) * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
@@ -148,7 +147,6 @@ static inline uint follow_surface(const SceneView* scene, CameraPath* path, cons
         quota->bundle_rays = 0;
         return has_diffuse ? WAY_RECEIVER : WAY_END;
     }
-    const uint max_light_samples = quota->samples;
     *quota = surface_quota(scene, path, surface, specular, has_diffuse, *quota);
     if (has_diffuse) {
         const float share = luminance(specular) / (luminance(specular) + luminance(*albedo));
@@ -156,7 +154,7 @@ static inline uint follow_surface(const SceneView* scene, CameraPath* path, cons
             return WAY_RECEIVER;
         }
     }
-    return follow_specular(scene, path, hit, surface, branch, *quota, max_light_samples, numbers);
+    return follow_specular(scene, path, hit, surface, branch, *quota, numbers);
 }
 
 /// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths

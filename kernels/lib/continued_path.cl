@@ -127,8 +127,8 @@ static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* 
         const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
         if (scale != 0.0f) {
             const uint edges = length == 0 ? share->max_edges : way->max_edges;
-            const LightQuota quota = {1, 1, edges - surfaces - 1, 0};
-            sum += scale * reflected_light(scene, hit, surface, parts, &quota, 0, seed);
+            const LightQuota quota = {1, 1, edges - surfaces - 1, 0, 0};
+            sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
         }
     }
     return sum;

@@ -53,14 +53,15 @@ typedef struct LightQuota {
     uint rays;         // the first goes on as the path, and the others only look for lights
     uint max_veils;    // that light may pass
     uint bundle_rays;  // of the bundle, which look for the sky
+    uint first;        // number of the first light sample in its sequence
 } LightQuota;
 
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
 /// from lights or through veils, as far as light samples bring it: rays that follow the BSDF bring the rest.
-/// `first` is the number of the first light sample in the sequence of `key`.
+/// `key` is that of the sequence of light samples.
 static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* hit,
                                      const SurfaceBsdf* surface, uint parts, const LightQuota* quota,
-                                     uint first, uint key) {
+                                     uint key) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
@@ -73,8 +74,9 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
     const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < quota->samples; ++s) {
+        const uint number = quota->first + s;
         const LightSample light = sample_light(scene, hit->position, surface->frame.n,
-                                               sample_2d(first + s, 0, key), sample_2d(first + s, 1, key));
+                                               sample_2d(number, 0, key), sample_2d(number, 1, key));
         sum +=
             reflected_sample(scene, hit, surface, &light, parts, path_ratio, bundle_ratio, quota->max_veils);
     }

@@ -72,8 +72,8 @@ kernel void probe(SCENE_PARAMETERS, global float* out) {
     const float3 along = (float3)(0.0f, 0.0f, 1.0f);
     const SurfaceHit hit = trace_surface(&scene, (float3)(0.1f, 0.2f, 0.0f), along, INFINITY);
     const SurfaceBsdf metal = surface_bsdf(&scene, &hit, along, BSDF_RADIANCE, 0.5f);
-    const LightQuota quota = {4, 12, 0, 0};
-    out[0] = reflected_light(&scene, &hit, &metal, BSDF_S, &quota, 0, 7).x;
+    const LightQuota quota = {4, 12, 0, 0, 0};
+    out[0] = reflected_light(&scene, &hit, &metal, BSDF_S, &quota, 7).x;
 }
 )");
     const SceneOnDevice on_device(probe.device(), scene);
