@@ -69,8 +69,8 @@ static inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed)
     return max(random_uint4(key).x, 1u);
 }
 
-static inline CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample,
-                                    uint sequence_length, uint branch_count, uint seed) {
+OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample,
+                                      uint sequence_length, uint branch_count, uint seed) {
     const CameraSample start = camera_sample(camera, x, y, sample, sequence_length, seed);
     CameraPath path;
     path.key = start.key;

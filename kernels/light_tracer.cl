@@ -16,6 +16,7 @@
 
 #include "lib/close_range.cl"
 #include "lib/light_walk.cl"
+#include "lib/outlined.cl"
 #include "lib/random.cl"
 #include "shared/light_tracer.h"
 
@@ -33,6 +34,44 @@ static inline float survival(const SceneView* scene, const EmittedParticle* part
     return clamp(max_component(reflected) / max_component(particle->flux), min_survival, max_survival);
 }
 
+/// Where the light of a walk may be kept.
+typedef struct Region {
+    const global CloseRange* close_range;
+    const global uint* close_triangles;
+} Region;
+
+/// Follows the walk number `walk` of all, and keeps what it leaves at each bounce in `vpls`, where `flags`
+/// is 1.
+OUTLINED_ON_CPU void follow_walk(const SceneView* scene, const Region* region,
+                                 const LightTracerParams* params, const WalkAim* aim, uint walk,
+                                 global Vpl* vpls, global uint* flags) {
+    const uint seed = params->seed;
+    EmittedParticle particle = emit_particle(scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
+                                             sample_2d(walk, 2, seed));
+    float launched = (float)params->all_walks;
+    for (uint bounce = 0; bounce < params->bounce_count; ++bounce) {
+        const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce;
+        const float2 choice = sample_2d(walk, pair, seed);
+        Landing at;
+        if (!((float)walk + params->absorption_shift < launched) || is_black(particle.flux) ||
+            !land(scene, &particle, choice.x, &at)) {
+            return;
+        }
+        const float3 reflected = reflected_flux(scene, &particle, &at);
+        const bool is_close = is_close_surface(region->close_range, region->close_triangles,
+                                               params->whole_triangles, at.hit.triangle, at.hit.position);
+        const bool kept = params->keep == NEARLIGHT_KEEP_ALL || !is_close ||
+                          (params->keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
+        if (kept && !is_black(reflected)) {
+            vpls[bounce] = make_deposit(scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0,
+                                        reflected / launched);
+            flags[bounce] = 1;
+        }
+        launched *= survival(scene, &particle, &at, params->min_survival, params->max_survival);
+        scatter(scene, &particle, &at, aim, choice.y, sample_2d(walk, pair + 1, seed));
+    }
+}
+
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
                          const global uint* restrict close_triangles, LightTracerParams params, WalkAim aim,
                          global Vpl* restrict vpls, global uint* restrict flags) {
@@ -41,34 +80,10 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint bounce_count = params.bounce_count;
-    const uint seed = params.seed;
-    for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        flags[index * bounce_count + bounce] = 0;
+    const Region region = {close_range, close_triangles};
+    const uint first = index * params.bounce_count;
+    for (uint bounce = 0; bounce < params.bounce_count; ++bounce) {
+        flags[first + bounce] = 0;
     }
-    const uint walk = params.first_walk + index;
-    EmittedParticle particle = emit_particle(&scene, &aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
-                                             sample_2d(walk, 2, seed));
-    float launched = (float)params.all_walks;
-    for (uint bounce = 0; bounce < bounce_count; ++bounce) {
-        const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce;
-        const float2 choice = sample_2d(walk, pair, seed);
-        Landing at;
-        if (!((float)walk + params.absorption_shift < launched) || is_black(particle.flux) ||
-            !land(&scene, &particle, choice.x, &at)) {
-            return;
-        }
-        const float3 reflected = reflected_flux(&scene, &particle, &at);
-        const bool is_close = is_close_surface(close_range, close_triangles, params.whole_triangles,
-                                               at.hit.triangle, at.hit.position);
-        const bool kept = params.keep == NEARLIGHT_KEEP_ALL || !is_close ||
-                          (params.keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
-        if (kept && !is_black(reflected)) {
-            vpls[index * bounce_count + bounce] = make_deposit(
-                &scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
-            flags[index * bounce_count + bounce] = 1;
-        }
-        launched *= survival(&scene, &particle, &at, params.min_survival, params.max_survival);
-        scatter(&scene, &particle, &at, &aim, choice.y, sample_2d(walk, pair + 1, seed));
-    }
+    follow_walk(&scene, &region, &params, &aim, params.first_walk + index, vpls + first, flags + first);
 }

@@ -18,6 +18,7 @@
 // shared_reflection_gather: one work-item for each bundle adds to the irradiance of its receivers. The lists
 // are those of shared_lights.cl. Any work-group size.
 
+#include "lib/outlined.cl"
 #include "lib/shared_reflection.cl"
 
 /// The surface of a reflection as a receiver sees it towards which `wo` points.
@@ -45,7 +46,7 @@ typedef struct Reflected {
 
 /// Finds what one reflection brings. All receivers that see it are on the same side of the surface, so that
 /// the first of them resolves it for all.
-static inline void reflect_to_all(const SceneView* scene, const ReflectionEntry* entry, Reflected* to) {
+OUTLINED_ON_CPU void reflect_to_all(const SceneView* scene, const ReflectionEntry* entry, Reflected* to) {
     const float3 y = load3(entry->light->position);
     const float3 wi = load3(entry->at->arriving);
     const float light_pdf = entry->at->light_pdf;

@@ -21,6 +21,7 @@
 
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/shadow.cl"
+#include "lib/outlined.cl"
 #include "lib/shared_sky.cl"
 
 /// Light of the sky that arrives at a receiver from the place of a shared light.
@@ -80,10 +81,10 @@ typedef struct SkyLight {
 } SkyLight;
 
 /// Sums the listed lights that the receiver sees, which is at `place` in its bundle.
-static inline SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at,
-                               const global SharedLight* found, const global uint* listed,
-                               const global float* factors, uint length, const global uint* seen_by,
-                               uint place) {
+OUTLINED_ON_CPU SkyLight sum_sky(const SceneView* scene, const SceneView* veils, const SkyReceiver* at,
+                                 const global SharedLight* found, const global uint* listed,
+                                 const global float* factors, uint length, const global uint* seen_by,
+                                 uint place) {
     SkyLight sum;
     sum.irradiance = sum.reflected = (float3)(0.0f);
     SurfaceBsdf surface;

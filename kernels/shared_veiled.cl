@@ -16,6 +16,7 @@
 // those of shared_lights.cl, with visibility past solid surfaces. Any work-group size.
 
 #include "lib/light/shadow.cl"
+#include "lib/outlined.cl"
 #include "lib/shared_light.cl"
 
 /// What one light brings to the receivers of a bundle.
@@ -26,9 +27,9 @@ typedef struct Veiled {
 } Veiled;
 
 /// `packets` are those of the bundle, and `seen_by` has the bits of its receivers.
-static inline void light_all(const SceneView* scene, const SceneView* veils,
-                             const global ReceiverPacket* packets, const global SharedLight* light,
-                             const global uint* seen_by, Veiled* to) {
+OUTLINED_ON_CPU void light_all(const SceneView* scene, const SceneView* veils,
+                               const global ReceiverPacket* packets, const global SharedLight* light,
+                               const global uint* seen_by, Veiled* to) {
     const float3 y = load3(light->position);
     to->past_solids = to->past_veils = 0.0f;
     for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {

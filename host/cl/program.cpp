@@ -19,7 +19,7 @@ std::shared_future<cl::Program> begin_build(Device& device, const std::string& f
 std::string build_options(const Device& device, const Defines& defines) {
     std::string options = "-cl-std=CL1.2 -cl-mad-enable -cl-denorms-are-zero";
     options += device.has_wide_rays() ? " -DNEARLIGHT_WIDE_RAYS=1" : " -DNEARLIGHT_WIDE_RAYS=0";
-    options += device.is_cpu() ? " -DNEARLIGHT_OUTLINED=0" : " -DNEARLIGHT_OUTLINED=1";
+    options += device.is_cpu() ? " -DNEARLIGHT_CPU=1" : " -DNEARLIGHT_CPU=0";
     for (const auto& [name, value] : defines) {
         options += " -D" + name + "=" + value;
     }

@@ -62,6 +62,18 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
 
+void BandStages::expect(const DeviceScene& scene) {
+    if (scene.host_info.has_sky != 0) {
+        shared_sky.emplace(device);
+    }
+    if (scene.host_info.veils != NEARLIGHT_VEILS_NONE) {
+        shared_veiled.emplace(device);
+    }
+    if (scene.has_rough_gloss) {
+        shared_reflections.emplace(device);
+    }
+}
+
 BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture,
                            const VplBuffer& vpls)
     : stages_(stages),
@@ -152,17 +164,17 @@ void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     stages_.receiver_paths.run_sharing(batch, buffers_.direct, buffers_.indirect, buffers_.found);
     stages_.shared_lights.add(batch, lists, found.near, buffers_.indirect);
     if (paths_.shares_reflections) {
-        stages_.shared_reflections.add(batch, lists, found, buffers_.indirect);
+        stages_.shared_reflections->add(batch, lists, found, buffers_.indirect);
     }
     if (paths_.shares_veiled) {
-        stages_.shared_veiled.add(batch, lists, found.veiled, buffers_.indirect);
+        stages_.shared_veiled->add(batch, lists, found.veiled, buffers_.indirect);
     }
     if (paths_.shares_sky) {
-        stages_.shared_sky.add(batch, lists, found.sky,
-                               {.surfaces = buffers_.seen,
-                                .vertices = buffers_.vertices,
-                                .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},
-                               buffers_.direct);
+        stages_.shared_sky->add(batch, lists, found.sky,
+                                {.surfaces = buffers_.seen,
+                                 .vertices = buffers_.vertices,
+                                 .rays = per_sample(picture_.settings.rays_per_pixel, picture_.settings)},
+                                buffers_.direct);
     }
 }
 

@@ -30,22 +30,23 @@ struct BandStages {
           receiver_paths(device),
           shared_light_lists(device, gather_kernel),
           shared_lights(device),
-          shared_sky(device),
-          shared_veiled(device),
-          shared_reflections(device),
           gatherer(device, {.kernel = gather_kernel}),
           film(device) {}
+
+    /// Makes the stages that only some scenes need, if `scene` does.
+    void expect(const DeviceScene& scene);
 
     Device& device;
     CameraPass camera_pass;
     ReceiverPaths receiver_paths;
     SharedLightLists shared_light_lists;
     SharedLights shared_lights;
-    SharedSky shared_sky;
-    SharedVeiled shared_veiled;
-    SharedReflections shared_reflections;
     Gatherer gatherer;
     Film film;
+    // expect() makes these stages.
+    std::optional<SharedSky> shared_sky{};
+    std::optional<SharedVeiled> shared_veiled{};
+    std::optional<SharedReflections> shared_reflections{};
     // These stages are made when they are first needed.
     std::optional<LocalGather> local_gather{};
     std::optional<Roulette> roulette{};
@@ -71,7 +72,7 @@ static_assert(std::is_trivially_copyable_v<Picture>);
 class BandRenderer {
   public:
     /// Uploads the VPLs unless they are on this device; they must be on the host too if several devices make
-    /// the picture. Keeps references to all of its arguments.
+    /// the picture. The stages must expect the scene. Keeps references to all of its arguments.
     BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture, const VplBuffer& vpls);
 
     /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.

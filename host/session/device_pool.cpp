@@ -31,7 +31,9 @@ TreeShapes DevicePool::tree_shapes() const {
 void DevicePool::upload(const Scene& scene, const ShapedBvh& tree) {
     for (std::size_t i = devices_.size(); i-- > 0;) {
         try {
-            devices_[i]->scene = upload_scene(devices_[i]->device(), scene, tree, kernel_);
+            PoolDevice& device = *devices_[i];
+            device.scene = upload_scene(device.device(), scene, tree, kernel_);
+            device.bands.expect(device.scene);
         } catch (const Error& error) {
             lose(i, error);
         }

@@ -4,13 +4,11 @@
 #include <limits>
 
 #include "host/base/receiver_bundles.h"
-#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 
 SharedReflections::SharedReflections(Device& device)
-    : program_(device, "shared_reflections.cl", kViewProgram),
-      gather_(program_, "shared_reflection_gather") {}
+    : program_(device, "shared_reflections.cl"), gather_(program_, "shared_reflection_gather") {}
 
 void SharedReflections::add(const ReceiverBatch& batch, SharedLightLists& lists, const FoundLights& found,
                             Buffer<IrradiancePacket>& irradiance) {

@@ -3,12 +3,10 @@
 
 #include <limits>
 
-#include "host/stages/joint_programs.h"
-
 namespace nearlight::core {
 
 SharedSky::SharedSky(Device& device)
-    : program_(device, "shared_sky.cl", kViewProgram), gather_(program_, "shared_sky_gather") {}
+    : program_(device, "shared_sky.cl"), gather_(program_, "shared_sky_gather") {}
 
 void SharedSky::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                     const SeenSurfaces& seen, Buffer<IrradiancePacket>& irradiance) {

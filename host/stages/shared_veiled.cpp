@@ -4,12 +4,11 @@
 #include <limits>
 
 #include "host/base/receiver_bundles.h"
-#include "host/stages/joint_programs.h"
 
 namespace nearlight::core {
 
 SharedVeiled::SharedVeiled(Device& device)
-    : program_(device, "shared_veiled.cl", kViewProgram), gather_(program_, "shared_veiled_gather") {}
+    : program_(device, "shared_veiled.cl"), gather_(program_, "shared_veiled_gather") {}
 
 void SharedVeiled::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                        Buffer<IrradiancePacket>& irradiance) {

@@ -4,6 +4,3 @@
 #include "film.cl"
 #include "receiver_paths.cl"
 #include "shared_lights.cl"
-#include "shared_reflections.cl"
-#include "shared_sky.cl"
-#include "shared_veiled.cl"

@@ -347,9 +347,9 @@ static inline bool brings_more(const SceneView* scene, const RayShare* share) {
 
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
 /// the bundle is left out.
-static inline ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                            const RayShare* share, uint4 keys, Continuation* first_way,
-                                            FoundReflection* found) {
+OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
+                                              const RayShare* share, uint4 keys, Continuation* first_way,
+                                              FoundReflection* found) {
     ContinuedPath path;
     path.ray = ray;
     path.hit = hit;

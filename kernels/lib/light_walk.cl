@@ -12,6 +12,7 @@
 #include "lib/aim_cone.cl"
 #include "lib/bsdf/bsdf.cl"
 #include "lib/light/emission.cl"
+#include "lib/outlined.cl"
 #include "lib/vpl.cl"
 #include "shared/light_walk.h"
 
@@ -104,8 +105,8 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
 /// straight through veils.
-static inline void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at,
-                           const WalkAim* aim, float u, float2 v) {
+OUTLINED_ON_CPU void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at,
+                             const WalkAim* aim, float u, float2 v) {
     const BsdfSample sample = sample_way_on(scene, at, aim, u, v);
     const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;

@@ -4,6 +4,7 @@
 #ifndef NEARLIGHT_LIB_PATH_WALK
 #define NEARLIGHT_LIB_PATH_WALK
 
+#include "lib/outlined.cl"
 #include "lib/receiver_path.cl"
 #include "lib/vpl.cl"
 #include "shared/local_lights.h"
@@ -11,7 +12,7 @@
 #define GATHER_LEVELS 4u
 #define GATHER_LIGHT_SAMPLES 4u
 
-static inline float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
+OUTLINED_ON_CPU float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
     float radius = law->max_radius;
     if (law->at_unit_light < INFINITY) {
         const uint key =
@@ -68,9 +69,9 @@ static inline float3 connected_irradiance(const SceneView* scene, const Connecti
 /// One-path estimate of the irradiance of a receiver over paths of at most `max_edges` edges. It adds up
 /// direct light, VPLs under a geometry term that is bounded at their radius, and what one ray of the receiver
 /// brings of all other light (lib/receiver_path.cl).
-static inline float3 short_walk_irradiance(const SceneView* scene, const Connections* to,
-                                           const ReceiverPoint* at, uint max_edges, uint direct_samples,
-                                           uint seed) {
+OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Connections* to,
+                                             const ReceiverPoint* at, uint max_edges, uint direct_samples,
+                                             uint seed) {
     const uint4 keys = random_uint4((uint4)(0x3a1du, seed, 0u, 0x9a7bu));
     float3 irradiance =
         sampled_direct_light(scene, at, direct_samples, 1, 0, max(max_edges, 1u) - 1, 0, keys.x);

@@ -11,6 +11,7 @@
 #define NEARLIGHT_LIB_RECEIVER_PATH
 
 #include "lib/continued_path.cl"
+#include "lib/outlined.cl"
 #include "lib/shared_sky.cl"
 
 /// What a receiver leaves to its bundle.
@@ -169,8 +170,8 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
 }
 
 /// All light of a receiver except what VPLs bring, and except what `finds` keeps for the bundle.
-static inline ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at,
-                                           const PathLimits* limits, uint4 keys, Finds* finds) {
+OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const ReceiverPoint* at,
+                                             const PathLimits* limits, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
