@@ -160,6 +160,19 @@ Material bump_map_material(Parameter height, uint child) {
     return material;
 }
 
+std::span<const uint> children(const Material& material) {
+    const bool has_two = material.model == NEARLIGHT_BSDF_BLEND || material.model == NEARLIGHT_BSDF_TWO_SIDED;
+    return {material.child, stands_for_others(material) ? (has_two ? 2u : 1u) : 0u};
+}
+
+int nesting(const Scene& scene, const Material& material) {
+    int levels = 0;
+    for (const uint child : children(material)) {
+        levels = std::max(levels, 1 + nesting(scene, scene.materials[child]));
+    }
+    return levels;
+}
+
 uint add_two_sided(Scene& scene, const Material& material) {
     const auto side = static_cast<uint>(scene.materials.size());
     scene.materials.push_back(material);

@@ -2,6 +2,8 @@
 // Makes materials of each model from physical parameters.
 #pragma once
 
+#include <span>
+
 #include "kernels/shared/types.h"
 
 namespace nearlight::core {
@@ -72,6 +74,15 @@ Material blend_material(Parameter weight, uint first, uint second);
 Material normal_map_material(Parameter map, uint child);
 /// `height` is in metres.
 Material bump_map_material(Parameter height, uint child);
+
+/// Whether the material is a mask, a blend, two sides or a map, and other materials reflect in its place.
+constexpr bool stands_for_others(const Material& material) {
+    return material.model >= NEARLIGHT_BSDF_MASK;
+}
+/// The indices of the materials that one may stand for.
+std::span<const uint> children(const Material& material);
+/// How many materials lie within each other below this one: 0 if it stands for no others.
+int nesting(const Scene& scene, const Material& material);
 
 /// Adds the two-sided material of a one-sided one, whose emission it takes over; returns its index.
 uint add_two_sided(Scene& scene, const Material& material);

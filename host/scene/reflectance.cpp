@@ -2,25 +2,14 @@
 #include "host/scene/reflectance.h"
 
 #include <algorithm>
-#include <span>
 
 #include "host/scene/material_model.h"
 
 namespace nearlight::core {
 namespace {
 
-bool stands_for_others(const Material& material) {
-    return material.model >= NEARLIGHT_BSDF_MASK;
-}
-
 const Material& child(const Scene& scene, const Material& material, std::size_t index) {
     return scene.materials[material.child[index]];
-}
-
-/// The materials that a material may stand for at some point.
-std::span<const uint> children(const Material& material) {
-    const bool has_two = material.model == NEARLIGHT_BSDF_BLEND || material.model == NEARLIGHT_BSDF_TWO_SIDED;
-    return {material.child, stands_for_others(material) ? (has_two ? 2u : 1u) : 0u};
 }
 
 /// Whether `test` holds for the material or any that it stands for, directly or not.

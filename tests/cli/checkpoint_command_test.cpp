@@ -141,7 +141,8 @@ TEST_F(CheckpointsOfRender, AKilledRenderGoesOnToTheSameBits) {
             break;
         }
         ++kills;
-        ASSERT_EQ(result.exit_code, 137) << result.errors;
+        // 124: the render ended by itself just when its time was up.
+        ASSERT_TRUE(result.exit_code == 137 || result.exit_code == 124) << result.exit_code << result.errors;
         if (std::filesystem::exists(folder_ / "a.exr")) {
             EXPECT_EQ(read_image(folder_ / "a.exr").width, 256) << "a picture on disk is whole";
         }

@@ -28,13 +28,15 @@ def _row(folder, path, width, height):
 
 def _fitted(text, width, height):
     """The shape of the scene's own film, as large as fits, in whole blocks."""
-    own = [_number(text, name) for name in ('width', 'height')]
+    own = [_number(text, 'width', 768), _number(text, 'height', 576)]
     factor = min(width / own[0], height / own[1])
     return [max(8, round(n * factor / 8) * 8) for n in own]
 
 
-def _number(text, name):
-    value = re.search(rf'<integer name="{name}" value="([^"]+)"', text).group(1)
+def _number(text, name, fallback):
+    """A number of the film, or Mitsuba's own where the file says nothing."""
+    found = re.search(rf'<integer name="{name}" value="([^"]+)"', text)
+    value = found.group(1) if found else str(fallback)
     if value.startswith('$'):
         value = re.search(rf'<default name="{value[1:]}" value="([^"]+)"', text).group(1)
     return int(value)

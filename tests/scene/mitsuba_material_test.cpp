@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "host/scene/reflectance.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -149,6 +151,44 @@ TEST_F(MitsubaMaterial, WrappersNameTheirChildren) {
     EXPECT_EQ(notes_on_line_2(""), 0u);
 }
 
+/// Mitsuba 0.5's mixtures are sums: each BSDF counts by its weight, and what the weights lack of 1 is black.
+TEST_F(MitsubaMaterial, MixturesBlendByTheirWeights) {
+    const auto grey = [](const std::string& value) {
+        return "<bsdf type='diffuse'>" + rgb("reflectance", value) + "</bsdf>";
+    };
+    const auto albedo = [&](const std::string& weights, const std::string& bsdfs) {
+        const Material mixture = load("mixturebsdf", text("weights", weights) + bsdfs);
+        return diffuse_albedo(scene_, mixture, 0.5f, 0.5f).x;
+    };
+    EXPECT_NEAR(albedo("0.5, 0.3, 0.2", grey("0.2") + grey("0.4") + grey("0.8")), 0.38f, 1e-6f);
+    EXPECT_NEAR(albedo("0.25 0.5", grey("0.4") + grey("0.8")), 0.5f, 1e-6f);
+    EXPECT_NEAR(albedo("1, 0", grey("0.2") + grey("0.8")), 0.2f, 1e-6f);
+    EXPECT_NEAR(albedo("0, 1", grey("0.2") + grey("0.8")), 0.8f, 1e-6f);
+    EXPECT_NEAR(albedo("0.7", grey("0.5")), 0.35f, 1e-6f);
+    EXPECT_EQ(notes_on_line_2(""), 0u);
+    EXPECT_NEAR(albedo("1, 3", grey("0.2") + grey("0.8")), 0.65f, 1e-6f);
+    EXPECT_EQ(notes_on_line_2("the sum of 'weights' is above 1"), 1u);
+    EXPECT_EQ(notes_on_line_2(""), 1u);
+}
+
+/// Kernels follow at most so many BSDFs within each other, however the file names them.
+TEST_F(MitsubaMaterial, NestingByReferencesIsLimited) {
+    const auto masks = [&](int count) {
+        std::string body = "<bsdf type='diffuse' id='0'/>";
+        for (int i = 1; i <= count; ++i) {
+            const std::string id = std::to_string(i);
+            body += "<bsdf type='mask' id='" + id + "'><ref id='" + std::to_string(i - 1) + "'/></bsdf>" +
+                    shape("rectangle", "<ref id='" + id + "'/>");
+        }
+        return body;
+    };
+    EXPECT_EQ(files_.load_xml(masks(NEARLIGHT_MAX_BSDF_NESTING)).triangles.size(),
+              2u * NEARLIGHT_MAX_BSDF_NESTING);
+    const std::string message =
+        file_error([&] { static_cast<void>(files_.load_xml(masks(NEARLIGHT_MAX_BSDF_NESTING + 1))); });
+    EXPECT_TRUE(mentions(message, "more than 8 bsdfs lie within each other")) << message;
+}
+
 TEST_F(MitsubaMaterial, BumpAndNormalMaps) {
     write_pair("map.png", 0.0f, 1.0f);
     const Material bump =
@@ -279,6 +319,9 @@ TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
         {"<bsdf type='pplastic'/>", "unknown bsdf 'pplastic'"},
         {"<bsdf type='hair'/>", "unknown bsdf 'hair'"},
         {"<bsdf type='twosided'/>", "needs one or two nested bsdfs"},
+        {"<bsdf type='mixturebsdf'>" + text("weights", "0.5, 0.5") + plastic + "</bsdf>", "a weight in"},
+        {"<bsdf type='mixturebsdf'>" + text("weights", "-1, 2") + plastic + plastic + "</bsdf>",
+         "none below 0"},
         {"<bsdf type='mask'>" + plastic + plastic + "</bsdf>", "needs one nested bsdf"},
         {"<bsdf type='conductor'>" + text("material", "Unobtainium") + "</bsdf>", "unknown metal"},
         {"<bsdf type='dielectric'>" + text("int_ior", "soup") + "</bsdf>", "no index of refraction"},

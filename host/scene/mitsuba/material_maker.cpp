@@ -2,6 +2,8 @@
 #include "host/scene/mitsuba/material_maker.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -11,13 +13,39 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr const char* kNested = "twosided, mask, bumpmap, normalmap, blendbsdf, null";
+constexpr const char* kNested = "twosided, mask, bumpmap, normalmap, blendbsdf, mixturebsdf, null";
 
 /// Whether there is a normal or bump map within a BSDF, which must not contain itself.
 bool holds_map(const Object& bsdf) {
     return std::ranges::any_of(bsdf.nested("bsdf"), [](const Object* nested) {
         return nested->type == "bumpmap" || nested->type == "normalmap" || holds_map(*nested);
     });
+}
+
+[[noreturn]] void fail_nesting(const Object& bsdf) {
+    fail(bsdf.where, "bsdf '" + bsdf.type + "' contains itself, or more than " +
+                         std::to_string(NEARLIGHT_MAX_BSDF_NESTING) + " bsdfs lie within each other");
+}
+
+/// How far the weights of a mixture may be from a sum of 1 that is meant.
+constexpr double kWeightTolerance = 1e-6;
+
+/// The weights of a mixture of `count` BSDFs, whose sum is at most 1.
+std::vector<double> mixture_weights(const Object& mixture, std::size_t count, NoteSink& notes) {
+    std::vector<double> weights = parse_numbers(mixture.required_string("weights"), mixture.where);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const bool is_negative = std::ranges::any_of(weights, [](double weight) { return !(weight >= 0.0); });
+    if (count == 0 || weights.size() != count || is_negative || !(sum > 0.0 && std::isfinite(sum))) {
+        fail(mixture.where,
+             "'mixturebsdf' needs nested bsdfs and a weight in 'weights' for each of them, none below 0");
+    }
+    if (sum > 1.0 + kWeightTolerance) {
+        note(notes, mixture.where, "the sum of 'weights' is above 1; they are scaled to a sum of 1");
+        for (double& weight : weights) {
+            weight /= sum;
+        }
+    }
+    return weights;
 }
 
 }  // namespace
@@ -61,13 +89,16 @@ uint MaterialMaker::add(const Material& material) {
 
 uint MaterialMaker::make(const Object& bsdf, int depth) {
     if (depth > NEARLIGHT_MAX_BSDF_NESTING) {
-        fail(bsdf.where, "bsdf '" + bsdf.type + "' contains itself, or more than " +
-                             std::to_string(NEARLIGHT_MAX_BSDF_NESTING) + " bsdfs lie within each other");
+        fail_nesting(bsdf);
     }
     if (const auto found = made_.find(&bsdf); found != made_.end()) {
         return found->second;
     }
     const uint index = make_new(bsdf, depth);
+    // Those of the BSDFs within it that were made before did not count how many lie around them.
+    if (nesting(scene_, scene_.materials[index]) > NEARLIGHT_MAX_BSDF_NESTING) {
+        fail_nesting(bsdf);
+    }
     bsdf.report_unused(notes_);
     made_.emplace(&bsdf, index);
     return index;
@@ -89,6 +120,9 @@ uint MaterialMaker::make_new(const Object& bsdf, int depth) {
     }
     if (type == "blendbsdf") {
         return make_blend(bsdf, depth);
+    }
+    if (type == "mixturebsdf") {
+        return make_mixture(bsdf, depth);
     }
     if (type == "bumpmap" || type == "bump") {
         return make_bump(bsdf, depth);
@@ -139,6 +173,27 @@ uint MaterialMaker::make_blend(const Object& bsdf, int depth) {
     const Parameter weight = textures_.number(bsdf, "weight", 0.5f);
     const uint first = make(*nested[0], depth + 1);
     return add(blend_material(weight, first, make(*nested[1], depth + 1)));
+}
+
+uint MaterialMaker::make_mixture(const Object& bsdf, int depth) {
+    const std::vector<const Object*> nested = bsdf.nested("bsdf");
+    const std::vector<double> weights = mixture_weights(bsdf, nested.size(), notes_);
+    double sum = 1.0 - std::accumulate(weights.begin(), weights.end(), 0.0);
+    uint all = 0;
+    const bool has_rest = sum > kWeightTolerance;
+    if (has_rest) {
+        all = add(diffuse_material({}));
+    } else {
+        sum = 0.0;
+    }
+    for (std::size_t i = nested.size(); i-- > 0;) {
+        const uint one = make(*nested[i], depth + 1);
+        const double others = sum;
+        sum += weights[i];
+        all = others > 0.0 ? add(blend_material(parameter_of(static_cast<float>(others / sum)), one, all))
+                           : one;
+    }
+    return all;
 }
 
 uint MaterialMaker::make_bump(const Object& bsdf, int depth) {
