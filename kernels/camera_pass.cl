@@ -125,7 +125,8 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                             min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
                             1,
                             0,
-                            sequence_index(path)};
+                            sequence_index(path),
+                            INFINITY};
     Finds finds = nothing_shared();
     const ReceivedLight light = received_light(
         scene, &at, &ray, random_uint4((uint4)(path->sequence, max_edges, 0x7ace5u, 0x3u)), &finds);

@@ -38,7 +38,8 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
                                params->light_samples,
                                params->path_count,
                                shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
-                               receiver_sample(receiver, lane)};
+                               receiver_sample(receiver, lane),
+                               params->shared_limit};
     return limits;
 }
 

@@ -2,6 +2,7 @@
 #include "host/library/checks.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
@@ -69,6 +70,7 @@ void check(const GatherSettings& settings) {
     }
     check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxDirectSamples);
     check_range("rays_per_pixel", settings.rays_per_pixel, 1u, kMaxDirectSamples);
+    check_range("shared_limit", settings.shared_limit, 0.0f, std::numeric_limits<float>::max());
     check_range("roulette", settings.roulette, 0.0f, kMaxRoulette);
 }
 

@@ -3,6 +3,7 @@
 // nothing of images.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,7 @@ struct SamplingTask {
 struct RayBudget {
     float clamp_radius = 0.0f;  ///< m
     uint light_samples_per_pixel = 64;
+    float shared_limit = std::numeric_limits<float>::max();  ///< GatherSettings::shared_limit, W/m²/sr
 
     friend bool operator==(const RayBudget&, const RayBudget&) = default;
 };

@@ -28,6 +28,7 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const Picture& pict
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed,
+            .shared_limit = picture.budget.shared_limit,
             .shares_sky = shares_lights(picture) && picture.shares_sky && scene.host_info.has_sky != 0,
             .shares_veiled = shares_lights(picture) && scene.host_info.veils != NEARLIGHT_VEILS_NONE,
             .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};

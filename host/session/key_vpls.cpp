@@ -34,6 +34,7 @@ JoinedVpls join_on_host(std::span<const VplPart> parts) {
         budget.clamp_radius += weight * own.clamp_radius;
         budget.light_samples_per_pixel =
             std::max(budget.light_samples_per_pixel, own.light_samples_per_pixel);
+        budget.shared_limit = std::min(budget.shared_limit, own.shared_limit);
     }
     if (have_budgets && !parts.empty()) {
         all.set.ray_budget = budget;

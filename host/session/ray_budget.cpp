@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,13 @@ constexpr double kHiddenErrorOfRays = 4;
 /// How much more the error of VPLs counts than that of rays: neighbouring pixels share it, so that it is seen
 /// as splotches, and a denoiser leaves it (bench/log/limit.md).
 constexpr double kWeightOfSharedError = 3;
+
+/// The part of receivers that are the brightest, which does not count in the mean radiance: rays that met a
+/// lamp by chance would raise it.
+constexpr double kBrightestPart = 0.01;
+/// RayBudget::shared_limit ÷ the mean radiance of places. As many receivers share what one of them finds, so
+/// that a find up to the limit brings to each of them about as much as it has anyway (bench/log/sharing.md).
+constexpr double kSharedLimit = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
 
 using Packets = std::vector<IrradiancePacket>;
 
@@ -102,12 +111,33 @@ struct ErrorParts {
     double of_vpls = 0;
 };
 
+Vec3 light_at(const PilotLight& light, std::size_t i) {
+    return mean_of(light.direct, i) + irradiance_at(light.vpls, i) + mean_of(light.rays, i);
+}
+
+float shared_limit(const PilotLight& light) {
+    std::vector<double> lit;
+    for (std::size_t i = 0; i < light.vpls.size() * NEARLIGHT_PACKET_SIZE; ++i) {
+        if (const double irradiance = sum_of(light_at(light, i)) / 3; irradiance > 0.0) {
+            lit.push_back(irradiance);
+        }
+    }
+    const auto count = static_cast<std::size_t>((1.0 - kBrightestPart) * static_cast<double>(lit.size()));
+    if (count == 0) {
+        return std::numeric_limits<float>::max();
+    }
+    std::ranges::sort(lit);
+    const double mean = std::accumulate(lit.begin(), lit.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
+                        static_cast<double>(count);
+    return static_cast<float>(std::min(kSharedLimit * mean / std::numbers::pi, 1e38));
+}
+
 /// The square of each receiver's light, with a part of the mean's, so that errors in the dark count less.
 std::vector<double> squares_of_light(const PilotLight& light) {
     std::vector<double> sums(light.vpls.size() * NEARLIGHT_PACKET_SIZE);
     double mean = 0.0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] = sum_of(mean_of(light.direct, i) + irradiance_at(light.vpls, i) + mean_of(light.rays, i));
+        sums[i] = sum_of(light_at(light, i));
         mean += sums[i] / static_cast<double>(sums.size());
     }
     for (double& sum : sums) {
@@ -183,12 +213,14 @@ void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays
 
 RayBudget choose_ray_budget(const BudgetPilot& pilot) {
     std::vector<double> squares;
+    float limit = 0.0f;
     Candidate best{.budget = {.clamp_radius = pilot.clamp_radius}};
     const std::size_t radii = pilot.radius_is_open ? kRadiusMultiples.size() : 1;
     for (const float multiple : std::span(kRadiusMultiples).first(radii)) {
         const PilotLight light = light_of(pilot, multiple * pilot.clamp_radius);
         if (squares.empty()) {
             squares = squares_of_light(light);
+            limit = shared_limit(light);
         }
         const ErrorParts mean = mean_parts(error_parts(pilot, light, squares));
         const Candidate candidate = best_number(mean, pilot.rays_per_pixel, multiple * pilot.clamp_radius);
@@ -197,6 +229,7 @@ RayBudget choose_ray_budget(const BudgetPilot& pilot) {
             best = candidate;
         }
     }
+    best.budget.shared_limit = limit;
     return best.budget;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of the clamp radius R for a set of VPLs, and of the number of light samples, by a pilot. The
-// picture's expectation does not depend on them, because rays of receivers bring what the bounded geometry
-// term takes away. Its noise does: with a small R, VPLs close to a receiver are outliers, and with a large
-// one, rays bring much of the light.
+// The choice of the clamp radius R for a set of VPLs, of the number of light samples, and of how much light
+// of one path a bundle shares, by a pilot. The picture's expectation does not depend on them, because rays of
+// receivers bring what the bounded geometry term takes away. Its noise does: with a small R, VPLs close to a
+// receiver are outliers, and with a large one, rays bring much of the light.
 #pragma once
 
 #include "host/samplers/sampler.h"

@@ -39,6 +39,7 @@ RenderSettings with_choice(RenderSettings settings, const PassChoice& choice) {
     settings.view.range = choice.range;
     settings.view.clamp_radius = choice.ray_budget.clamp_radius;
     settings.gather.direct_samples_per_pixel = choice.ray_budget.light_samples_per_pixel;
+    settings.gather.shared_limit = choice.ray_budget.shared_limit;
     return settings;
 }
 

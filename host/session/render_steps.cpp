@@ -20,7 +20,8 @@ void note_view(const View& view, RenderReport& report) {
 /// budget of the first one.
 ViewSettings view_settings(const RenderSettings& settings) {
     ViewSettings view = settings.view;
-    const bool is_decided = view.clamp_radius && settings.gather.direct_samples_per_pixel;
+    const GatherSettings& gather = settings.gather;
+    const bool is_decided = view.clamp_radius && gather.direct_samples_per_pixel && gather.shared_limit;
     view.ray_budget_pilot = view.ray_budget_pilot && !is_decided;
     return view;
 }

@@ -80,6 +80,7 @@ RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& 
     }
     budget.light_samples_per_pixel =
         settings.direct_samples_per_pixel.value_or(budget.light_samples_per_pixel);
+    budget.shared_limit = settings.shared_limit.value_or(budget.shared_limit);
     return budget;
 }
 

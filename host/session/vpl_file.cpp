@@ -51,6 +51,7 @@ std::string header_of(const VplFile& set) {
         if (set.origin->ray_budget) {
             say("clamp_radius " + decimal(set.origin->ray_budget->clamp_radius));
             say("light_samples " + decimal(set.origin->ray_budget->light_samples_per_pixel));
+            say("shared_limit " + decimal(set.origin->ray_budget->shared_limit));
         }
     }
     text += "element vertex " + decimal(set.vpls.size()) + "\n";
@@ -100,6 +101,13 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                                " and its light samples from 1 to " + decimal(kMaxLightSamples));
         }
         origin.ray_budget = {.clamp_radius = radius, .light_samples_per_pixel = samples};
+        // A file whose pilot knew of no limit has none.
+        if (!value_of(header, "shared_limit").empty()) {
+            origin.ray_budget->shared_limit = number_of<float>(file, header, "shared_limit");
+            if (!(origin.ray_budget->shared_limit >= 0.0f)) {
+                fail_ply(file, "the header's shared limit must be 0 or more");
+            }
+        }
     }
     return origin;
 }

@@ -3,6 +3,8 @@
 // bounded gather of Lambertian reflection leaves out.
 #pragma once
 
+#include <limits>
+
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 #include "kernels/shared/shared_light.h"
@@ -22,6 +24,9 @@ struct ReceiverPathSettings {
     /// distance r has the weight max0(1 − r²/R²). Infinity counts all of it, 0 none.
     float clamp_radius = 0.0f;
     uint seed = 0;
+    /// How much of a place's radiance (W/m²/sr), as one path estimates it, run_sharing() leaves to `found`. The
+    /// excess stays with the receiver: a bundle would show it as a tile, where a receiver shows a dot.
+    float shared_limit = std::numeric_limits<float>::max();
     bool shares_sky = false;          ///< whether run_sharing() leaves light of the sky to `found`
     bool shares_veiled = false;       ///< whether it leaves Lambertian light of places behind veils there
     bool shares_reflections = false;  ///< whether it leaves light there that rough gloss reflects

@@ -140,6 +140,10 @@ struct GatherSettings {
     /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections.
     std::uint32_t rays_per_pixel = 64;
     bool indirect_only = false;  ///< the layer of direct light has emission only
+    /// Bundles of receivers share the light that their rays find. What one path brings from a lamp that it
+    /// met by chance stays with its receiver where it is more than this radiance (W/m²/sr): it makes a bright
+    /// dot, not a bright tile. Empty: as a pilot chooses.
+    std::optional<float> shared_limit{};
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;

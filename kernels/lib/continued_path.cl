@@ -30,10 +30,12 @@ static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float fi
 typedef struct RayShare {
     float of_vpls;
     uint max_edges;
-    uint vpl_edges;     // at least max_edges
-    uint is_shared;     // 1: what the first surface sends by its Lambertian part is for the whole bundle
-    uint is_diffuse;    // 1: nothing else is wanted
-    uint finds_veiled;  // 1: the bundle gets what the first solid surface behind veils sends by that part
+    uint vpl_edges;      // at least max_edges
+    uint is_shared;      // 1: what the first surface sends by its Lambertian part is for the whole bundle
+    uint is_diffuse;     // 1: nothing else is wanted
+    uint finds_veiled;   // 1: the bundle gets what the first solid surface behind veils sends by that part
+    float shared_limit;  // how much of the light that one path brings from lamps which it met by chance goes
+                         // to the bundle, as the radiance of the place that sends it on, W/m²/sr
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -46,6 +48,7 @@ typedef struct Continuation {
     uint is_found;     // 1: the ray brings a light that its receiver shares
     float3 shading;    // normal of the first surface
     uint curve;        // its transmission curve
+    float3 excess;     // of lamps met by chance, over the limit: it stays with the receiver
 } Continuation;
 
 /// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
@@ -66,6 +69,7 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
     }
     Continuation way;
     way.is_found = 0;
+    way.excess = (float3)(0.0f);
     if (u < chance) {
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
@@ -140,6 +144,7 @@ typedef struct BundlePath {
     uint is_one;
     GlossyPlace place;
     ArrivingRay ray;  // by which the path goes on from the first surface
+    float3 own;       // what the receiver gets of light that arrives there and is not the bundle's
 } BundlePath;
 
 /// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing
@@ -211,6 +216,7 @@ typedef struct ContinuedPath {
     Continuation way;
     BundlePath of_bundle;
     float first_weight;  // of the ray's throughput where it began to count
+    float shared_limit;  // RayShare.shared_limit times that weight
     ReceivedLight light;
 } ContinuedPath;
 
@@ -241,6 +247,17 @@ static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
     return numbers;
 }
 
+/// Adds the light of a lamp that the path met by chance, for the bundle or the receiver. Such light is rare
+/// and bright where light samples find none of it, as behind glass. So what exceeds the limit of a bundle's
+/// light stays with the receiver, where it is a bright dot and not a bright tile.
+static inline void add_by_chance(ContinuedPath* path, float3 light) {
+    const bool is_shared = path->way.is_found || path->of_bundle.is_one;
+    const float brightest = max_component(light);
+    const float part = is_shared && brightest > path->shared_limit ? path->shared_limit / brightest : 1.0f;
+    path->light.indirect += part * light;
+    path->way.excess += (1.0f - part) * light;
+}
+
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
 /// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
 /// bundle's goes into the draw.
@@ -254,7 +271,7 @@ static inline void add_met_light(const SceneView* scene, ContinuedPath* path, ui
     } else if (ray->veils == surfaces) {
         path->light.direct += brought * met_weight(ray, &met);
     } else {
-        path->light.indirect += brought * met_weight(ray, &met);
+        add_by_chance(path, brought * met_weight(ray, &met));
     }
 }
 
@@ -282,7 +299,9 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
         ray->direction = path->ray.direction;
         ray->pdf = path->ray.pdf;
         ray->value = path->ray.throughput / max_component(before) * ray->pdf;
+        path->of_bundle.own = path->ray.throughput / survived;
         path->ray.throughput = (float3)(survived);
+        path->shared_limit = share->shared_limit;
         path->first_weight = survived;
     }
     return true;
@@ -358,6 +377,8 @@ OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ra
     path.of_bundle.is_one = 0;
     path.way.max_edges = share->vpl_edges;
     path.way.is_found = 0;
+    path.way.excess = (float3)(0.0f);
+    path.shared_limit = share->shared_limit * path.first_weight;
     for (uint surfaces = 1; surfaces < path.way.max_edges; ++surfaces) {
         if (!pass_surface(scene, &path, share, surfaces, keys, found)) {
             break;
@@ -366,7 +387,7 @@ OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ra
     if (path.of_bundle.is_one && !is_black(path.light.indirect)) {
         find_reflection(found, &path.of_bundle.place, &path.of_bundle.ray, path.light.indirect, 0.0f,
                         to_unit_float(random_uint4(keys ^ 0xb0bd1eu).x));
-        path.light.indirect = (float3)(0.0f);
+        path.light.indirect = path.way.excess * path.of_bundle.own;
     }
     *first_way = path.way;
     return path.light;

@@ -90,7 +90,7 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    const RayShare share = {1.0f - weight, max_edges, max_edges, 0, 0, 0};
+    const RayShare share = {1.0f - weight, max_edges, max_edges, 0, 0, 0, INFINITY};
     Continuation way;
     FoundReflection none = no_reflection_found();
     if (brings_more(scene, &share)) {

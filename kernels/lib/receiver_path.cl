@@ -39,6 +39,7 @@ typedef struct PathLimits {
     uint path_count;     // rays that each receiver sends
     uint bundle_count;   // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
+    float shared_limit;  // RayShare.shared_limit
 } PathLimits;
 
 /// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
@@ -90,33 +91,38 @@ static inline void find_sky_along(const SceneView* scene, float3 x, float3 direc
 #define VEILED_PART 0.25f
 
 /// Finds what lies behind the veils that a ray met first, for the bundle: the sky, or a place. Whether veils
-/// let the ray pass is not asked here, because the density of finds must follow from places alone.
-OUTLINED void find_behind_veils(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
-                                const PathRay* ray, uint4 keys, Finds* finds) {
+/// let the ray pass is not asked here, because the density of finds must follow from places alone. Returns
+/// what stays with the receiver of the light of such a place.
+OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
+                                  const PathRay* ray, uint4 keys, Finds* finds) {
     const SurfaceHit behind = trace_surface(finds->solids, at->x, ray->direction, INFINITY);
     if (behind.t < 0.0f) {
         if (finds->sky.is_wanted) {
             find_sky_along(scene, at->x, ray->direction, keys, &finds->sky);
         }
-        return;
+        return (float3)(0.0f);
     }
     if (!finds->veiled.is_wanted || !(to_unit_float(random_uint4(keys ^ 0x3a11u).x) < VEILED_PART)) {
-        return;
+        return (float3)(0.0f);
     }
-    const uint veils =
-        veiling_between(finds->veils, at->x, offset_point(scene, behind.position, behind.geometric)).count;
+    const Veiling veiling =
+        veiling_between(finds->veils, at->x, offset_point(scene, behind.position, behind.geometric));
+    const uint veils = veiling.count;
     if (veils == 0 || veils > NEARLIGHT_MAX_VEILS || limits->max_edges < veils + 2) {
-        return;
+        return (float3)(0.0f);
     }
-    const RayShare share = {0.0f, limits->max_edges - veils, limits->max_edges - veils, 1, 1, 0};
+    const uint max_edges = limits->max_edges - veils;
+    const RayShare share = {0.0f, max_edges, max_edges, 1, 1, 0, VEILED_PART * limits->shared_limit};
     Continuation way;
     FoundReflection none = no_reflection_found();
     const ReceivedLight light = continued_light(scene, *ray, behind, &share, keys ^ 0x7e11u, &way, &none);
-    if (way.is_found) {
-        SharedLight y = sent_light(scene, ray, &behind, &way, light.indirect / VEILED_PART, 0.0f);
-        y.veils = (ushort)veils;
-        find_light(&finds->veiled, &y, to_unit_float(random_uint4(keys ^ 0xbe41u).x));
+    if (!way.is_found) {
+        return (float3)(0.0f);
     }
+    SharedLight y = sent_light(scene, ray, &behind, &way, light.indirect / VEILED_PART, 0.0f);
+    y.veils = (ushort)veils;
+    find_light(&finds->veiled, &y, to_unit_float(random_uint4(keys ^ 0xbe41u).x));
+    return veiling.part * way.excess / VEILED_PART;
 }
 
 /// What one ray of a receiver brings.
@@ -145,7 +151,7 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
     }
     const bool meets_veil = (scene->materials[hit.material].flags & NEARLIGHT_MATERIAL_VEIL) != 0;
     if (meets_veil && (finds->sky.is_wanted || finds->veiled.is_wanted) && limits->max_edges > 0) {
-        find_behind_veils(scene, at, limits, &ray, keys, finds);
+        light.indirect = find_behind_veils(scene, at, limits, &ray, keys, finds);
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
     const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction),
@@ -153,7 +159,8 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
                             limits->vpl_edges,
                             finds->near.is_wanted && hit.t < limits->clamp_radius,
                             0,
-                            finds->veiled.is_wanted};
+                            finds->veiled.is_wanted,
+                            limits->shared_limit};
     if (brings_more(scene, &share)) {
         Continuation way;
         const ReceivedLight beyond =
@@ -162,8 +169,9 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
         if (way.is_found) {
             const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, share.of_vpls);
             find_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
+            light.indirect += fmax(1.0f - share.of_vpls, 0.0f) * way.excess;
         } else {
-            light.indirect = beyond.indirect;
+            light.indirect += beyond.indirect;
         }
     }
     return light;

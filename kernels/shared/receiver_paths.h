@@ -18,7 +18,7 @@ typedef struct ReceiverPathParams {
     float clamp_radius;  // m
     uint seed;
     uint shares;  // what goes to bundles: NEARLIGHT_SHARES_… of shared/shared_light.h
-    uint pad0;
+    float shared_limit;  // radiance of places, W/m²/sr, above which light met by chance stays with receivers
 } ReceiverPathParams;
 
 #ifdef __cplusplus

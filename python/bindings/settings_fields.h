@@ -99,6 +99,8 @@ struct FieldsOf<GatherSettings> {
               "whether rays bring back what the clamp radius takes away and what surfaces reflect"},
         Field{"rays_per_pixel", &GatherSettings::rays_per_pixel, "the number of these rays"},
         Field{"indirect_only", &GatherSettings::indirect_only, "leaves direct light out, but not emission"},
+        Field{"shared_limit", &GatherSettings::shared_limit,
+              "radiance of lamps met by chance that bundles share at most; None: a pilot chooses"},
         Field{"roulette", &GatherSettings::roulette,
               "threshold of Russian roulette, in means of what VPLs could bring; 0 asks them all"}};
 };

@@ -107,6 +107,7 @@ class _GatherSettings(TypedDict, total=False):
     compensate: bool
     rays_per_pixel: int
     indirect_only: bool
+    shared_limit: float | None
     roulette: float
 
 class GatherSettings:
@@ -119,6 +120,7 @@ class GatherSettings:
     compensate: bool
     rays_per_pixel: int
     indirect_only: bool
+    shared_limit: float | None
     roulette: float
 
 class _RenderSettings(_ViewSettings, _SamplingSettings, _GatherSettings, total=False):

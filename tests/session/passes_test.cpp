@@ -98,6 +98,7 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
                     const RayBudget& budget = averaged.report.ray_budget;
                     settings.view.clamp_radius = budget.clamp_radius;
                     settings.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
+                    settings.gather.shared_limit = budget.shared_limit;
                 }
                 const test::Rendering single = test::render_image(session, settings);
                 vpls += single.report.totals.close_vpls + single.report.totals.distant_vpls;

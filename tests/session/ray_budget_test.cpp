@@ -79,6 +79,25 @@ TEST_F(RayBudgetTest, AGivenRadiusStays) {
     EXPECT_EQ(budget_of(view, vpls, {}).clamp_radius, 0.07f);
 }
 
+/// The limit of what bundles share is a multiple of the mean radiance, in which single bright receivers do
+/// not count.
+TEST_F(RayBudgetTest, TheSharedLimitGoesByTheMeanLight) {
+    on_each_device([](Device& device) {
+        const auto limit_of = [&](const Scene& scene) {
+            Session session(device, scene);
+            return test::render_image(session, pilot_settings(std::nullopt, 1000))
+                .report.ray_budget.shared_limit;
+        };
+        Scene scene = test::corner();
+        const float limit = limit_of(scene);
+        EXPECT_GT(limit, 0.0f);
+        for (Material& material : scene.materials) {
+            material.emission.value *= 2.0f;
+        }
+        EXPECT_NEAR(limit_of(scene), 2.0f * limit, 1e-3f * limit);
+    });
+}
+
 TEST_F(RayBudgetTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
     const Scene scene = test::corner();
     Session session(*devices().front(), scene);

@@ -144,12 +144,13 @@ TEST(VplFile, KeepsEveryBit) {
                   .flags = NEARLIGHT_VPL_CLOSE,
                   .power = {0, 1e-30f, 7},
                   .shading = 0xfffefdfcu};
-    write_vpl_file(folder / "a.ply", {.vpls = {vpl, vpl, vpl},
-                                      .origin = VplOrigin{.scene = 0xfedcba9876543210u,
-                                                          .max_depth = 5,
-                                                          .close_count = 2,
-                                                          .asked_count = 1,
-                                                          .ray_budget = RayBudget{0.123456789f, 32}}});
+    write_vpl_file(folder / "a.ply",
+                   {.vpls = {vpl, vpl, vpl},
+                    .origin = VplOrigin{.scene = 0xfedcba9876543210u,
+                                        .max_depth = 5,
+                                        .close_count = 2,
+                                        .asked_count = 1,
+                                        .ray_budget = RayBudget{0.123456789f, 32, 7.7777777f}}});
     const VplFile read = read_vpl_file(folder / "a.ply");
     ASSERT_EQ(read.vpls.size(), 3u);
     EXPECT_EQ(std::memcmp(&read.vpls[2], &vpl, sizeof(Vpl)), 0);
@@ -161,6 +162,7 @@ TEST(VplFile, KeepsEveryBit) {
     ASSERT_TRUE(read.origin->ray_budget);
     EXPECT_EQ(read.origin->ray_budget->clamp_radius, 0.123456789f);
     EXPECT_EQ(read.origin->ray_budget->light_samples_per_pixel, 32u);
+    EXPECT_EQ(read.origin->ray_budget->shared_limit, 7.7777777f);
 }
 
 TEST(VplFile, BrokenFilesAreErrors) {
@@ -199,6 +201,9 @@ TEST(VplFile, BrokenFilesAreErrors) {
                      "comment clamp_radius " + radius + "\ncomment light_samples " + samples + "\n"),
               "clamp radius must be from 0");
     }
+    fails(titled("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n"
+                 "comment clamp_radius 1\ncomment light_samples 16\ncomment shared_limit -1\n"),
+          "shared limit must be 0 or more");
     VplFile odd{.vpls = {Vpl{}}};
     odd.vpls[0].flags = 7u << NEARLIGHT_VPL_CURVE_SHIFT;
     expect_error([&] { check_vpls(odd, corner(), 8, "odd.ply"); }, ErrorKind::file, "transmission curve");

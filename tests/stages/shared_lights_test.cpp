@@ -58,9 +58,10 @@ constexpr ReceiverPathSettings kTwoRays{.path_count = 2, .max_edges = 4, .clamp_
 constexpr ReceiverPathSettings kManyRays{.path_count = 512, .max_edges = 4, .clamp_radius = kRadius};
 
 void expect_the_light_of_own_rays(Device& device, const Scene& scene,
-                                  const std::vector<ReceiverPacket>& packets, GatherKernel kernel) {
+                                  const std::vector<ReceiverPacket>& packets, GatherKernel kernel,
+                                  const ReceiverPathSettings& settings = kTwoRays) {
     const Brought own = brought(device, scene, packets, false, kManyRays, 32, kernel);
-    const Brought shared = brought(device, scene, packets, true, kTwoRays, 2048, kernel);
+    const Brought shared = brought(device, scene, packets, true, settings, 2048, kernel);
     ASSERT_GT(own.sum(), 1.0);
     EXPECT_NEAR(shared.sum(), own.sum(), 0.005 * own.sum());
     for (std::size_t i = 0; i < own.mean.size(); ++i) {
@@ -88,6 +89,22 @@ TEST_F(SharedLightsTest, BringWhatOwnRaysBringBelowCoats) {
             std::ranges::fill(packet.surface, scene.materials[0].curve);
         }
         expect_the_light_of_own_rays(device, scene, packets, GatherKernel::automatic);
+    });
+}
+
+/// Much of what rays bring from a lamp that is large to the wall is above the limit.
+TEST_F(SharedLightsTest, BringWhatOwnRaysBringUpToALimit) {
+    on_each_device([](Device& device) {
+        Scene scene = corner_with_shelf(lambertian({0.5f, 0.5f, 0.5f}));
+        Material lamp = lambertian({0, 0, 0});
+        lamp.emission = parameter_of(Vec3{2, 3, 4});
+        add_quad(scene, {-0.6f, 0.7f, 0.2f}, {1.2f, 0, 0}, {0, 0, 0.7f}, add_material(scene, lamp));
+        const std::vector<ReceiverPacket> packets = receivers_near_the_wall();
+        const ReceiverPathSettings limited = test::with_limit(kTwoRays, 0.02f);
+        EXPECT_GT(brought(device, scene, packets, true, limited, 64).variance(),
+                  1.03 * brought(device, scene, packets, true, kTwoRays, 64).variance())
+            << "the limit changes nothing";
+        expect_the_light_of_own_rays(device, scene, packets, GatherKernel::automatic, limited);
     });
 }
 

@@ -56,10 +56,11 @@ constexpr ReceiverPathSettings kTwoGlossyRays{
 constexpr ReceiverPathSettings kManyGlossyRays{.path_count = 512, .max_edges = 4, .clamp_radius = 0.5f};
 
 void expect_what_own_rays_bring(Device& device, const Scene& scene,
-                                GatherKernel kernel = GatherKernel::automatic) {
+                                GatherKernel kernel = GatherKernel::automatic,
+                                const ReceiverPathSettings& settings = kTwoGlossyRays) {
     const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
     const Brought own = brought(device, scene, packets, false, kManyGlossyRays, 64, kernel);
-    const Brought shared = brought(device, scene, packets, true, kTwoGlossyRays, 8192, kernel);
+    const Brought shared = brought(device, scene, packets, true, settings, 8192, kernel);
     ASSERT_GT(own.sum(), 0.1);
     EXPECT_NEAR(shared.sum(), own.sum(), 0.01 * own.sum());
     const double tolerance = 0.2 * own.sum() / kGlossyReceivers;
@@ -77,15 +78,46 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBring) {
     });
 }
 
-/// A lamp, a point, a sky, and a wall that the floor reflects: light over more surfaces.
+/// A metal floor and a wall that it reflects: light over more surfaces.
+Scene floor_beside_wall() {
+    Scene scene = floor_under_lamp(metal(0.3f));
+    add_quad(scene, {2, 0, -2}, {0, 0, 4}, {0, 0.8f, 0},
+             add_two_sided(scene, lambertian({0.5f, 0.7f, 0.5f})));
+    return scene;
+}
+
+/// A lamp, a point, and a sky.
 TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfAllLights) {
     on_each_device([](Device& device) {
-        Scene scene = floor_under_lamp(metal(0.3f));
-        add_quad(scene, {2, 0, -2}, {0, 0, 4}, {0, 0.8f, 0},
-                 add_two_sided(scene, lambertian({0.5f, 0.7f, 0.5f})));
+        Scene scene = floor_beside_wall();
         add_point_light(scene, {0.5f, 0.6f, -0.8f}, {0.3f, 0.3f, 0.3f});
         scene.environment = patterned_map(6, 4);
         expect_what_own_rays_bring(device, scene);
+    });
+}
+
+/// Adds a lamp under a sheet of glass, through which no light sample sees it: rays find its light by chance.
+/// The lamp shines to the side of cross(edge1, edge2).
+void add_lamp_behind_glass(Scene& scene, Vec3 corner, Vec3 edge1, Vec3 edge2, Vec3 radiance) {
+    Material lamp = lambertian({0, 0, 0});
+    lamp.emission = parameter_of(radiance);
+    add_quad(scene, corner, edge1, edge2, add_material(scene, lamp));
+    const Vec3 normal = normalize(cross(edge1, edge2));
+    add_quad(scene, corner + 0.02f * normal - 0.5f * (edge1 + edge2), 2.0f * edge1, 2.0f * edge2,
+             add_material(scene, dielectric_material(1.5)));
+}
+
+/// Most of what rays bring from a lamp behind glass over the wall is above the limit.
+TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringUpToALimit) {
+    on_each_device([](Device& device) {
+        Scene scene = floor_beside_wall();
+        add_lamp_behind_glass(scene, {0.8f, 0.4f, -0.5f}, {0, 0.4f, 0}, {0, 0, 1}, {10, 10, 10});
+        const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
+        const ReceiverPathSettings limited = test::with_limit(kTwoGlossyRays, 0.3f);
+        EXPECT_GT(brought(device, scene, packets, true, limited, 64).variance(),
+                  1.1 * brought(device, scene, packets, true, kTwoGlossyRays, 64).variance())
+            << "the limit changes nothing";
+        expect_what_own_rays_bring(device, scene, GatherKernel::automatic, limited);
     });
 }
 

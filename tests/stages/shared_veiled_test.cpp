@@ -89,6 +89,22 @@ TEST_F(SharedVeiledTest, BringsWhatOwnRaysBring) {
     });
 }
 
+/// Much of what rays bring from a lamp that is large to the floor is above the limit.
+TEST_F(SharedVeiledTest, BringsWhatOwnRaysBringUpToALimit) {
+    on_each_device([](Device& device) {
+        Scene scene = floor_below_a_pane();
+        Material lamp = lambertian({0, 0, 0});
+        lamp.emission = parameter_of(Vec3{2, 3, 4});
+        add_quad(scene, {-1.5f, -0.5f, 0.3f}, {4, 0, 0}, {0, 0, 2}, add_material(scene, lamp));
+        const std::vector<ReceiverPacket> packets = receivers_above();
+        const ReceiverPathSettings limited = test::with_limit(kTwoVeiledRays, 0.3f);
+        EXPECT_GT(brought(device, scene, packets, true, limited, 64).variance(),
+                  1.1 * brought(device, scene, packets, true, kTwoVeiledRays, 64).variance())
+            << "the limit changes nothing";
+        expect_what_own_rays_bring_through_veils(device, scene, limited);
+    });
+}
+
 /// Receivers see the same place through one pane, through two or through none. With a sky besides, which
 /// stays with the receivers here.
 TEST_F(SharedVeiledTest, BringsWhatOwnRaysBringThroughSeveralVeils) {

@@ -33,6 +33,12 @@ struct Brought {
     }
 };
 
+/// Settings by which bundles get at most this radiance of a lamp that a path met by chance.
+inline ReceiverPathSettings with_limit(ReceiverPathSettings settings, float limit) {
+    settings.shared_limit = limit;
+    return settings;
+}
+
 /// Light over surfaces; what the settings say is left to the bundle if it is `shared`.
 inline Brought brought(Device& device, const Scene& scene, const std::vector<ReceiverPacket>& packets,
                        bool shared, ReceiverPathSettings settings, uint seeds,
