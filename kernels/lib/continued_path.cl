@@ -253,7 +253,8 @@ static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
 static inline void add_by_chance(ContinuedPath* path, float3 light) {
     const bool is_shared = path->way.is_found || path->of_bundle.is_one;
     const float brightest = max_component(light);
-    const float part = is_shared && brightest > path->shared_limit ? path->shared_limit / brightest : 1.0f;
+    const bool exceeds = is_shared && brightest > path->shared_limit && brightest < INFINITY;
+    const float part = exceeds ? path->shared_limit / brightest : 1.0f;
     path->light.indirect += part * light;
     path->way.excess += (1.0f - part) * light;
 }

@@ -205,7 +205,7 @@ TEST_F(CheckpointsOfRender, ThatAreDamagedAreRefused) {
         expect_no_merge({"b"}, 3, part);
     };
     std::string other_version = good;
-    other_version[7] = '2';
+    other_version[7] = '9';
     expect_refusal_of(other_version, "another version of nearlight wrote it");
     expect_refusal_of("", "it is no checkpoint");
     expect_refusal_of(file_text(folder_ / "a.exr"), "it is no checkpoint");
