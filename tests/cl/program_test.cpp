@@ -245,6 +245,11 @@ TEST_F(ProgramTest, ProfilerCountsLaunchesByKernel) {
         EXPECT_EQ(totals.at("answer").launches, 2);
         EXPECT_GE(totals.at("answer").seconds, 0.0);
         EXPECT_LT(totals.at("answer").seconds, 10.0);
+        // No launch is lost when there are more than the profiler keeps the events of.
+        for (int i = 0; i < 2500; ++i) {
+            kernel.launch(1, 1, out);
+        }
+        EXPECT_EQ(device.profiler().totals().at("answer").launches, 2502);
     });
 }
 
