@@ -168,12 +168,16 @@ Gloss gloss_towards(const SharedReflectionCase& data, const Scene& scene, std::s
     return {bsdf.eval(wi).specular, bsdf.specular_pdf(wi), std::min(parameters.alpha_x, parameters.alpha_y)};
 }
 
+SharedLightCase without_lights(std::vector<ReceiverPacket> receivers, float clamp_radius) {
+    vary(receivers);
+    return {.receivers = std::move(receivers), .found = {}, .clamp_radius = clamp_radius};
+}
+
 }  // namespace
 
 SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float clamp_radius,
                                    const std::function<bool(Vec3, Vec3)>& is_clear) {
-    SharedLightCase data{.receivers = std::move(receivers), .found = {}, .clamp_radius = clamp_radius};
-    vary(data.receivers);
+    SharedLightCase data = without_lights(std::move(receivers), clamp_radius);
     place_lights(data, 4, is_clear, [&](std::size_t first, std::size_t end, Pcg32& random) {
         return receiver_at(data.receivers, first + random.next() % (end - first));
     });
@@ -182,10 +186,7 @@ SharedLightCase make_shared_lights(std::vector<ReceiverPacket> receivers, float 
 
 SharedLightCase make_shared_sky(std::vector<ReceiverPacket> receivers, Vec3 center, float radius,
                                 const std::function<bool(Vec3, Vec3)>& is_clear) {
-    SharedLightCase data{.receivers = std::move(receivers),
-                         .found = {},
-                         .clamp_radius = std::numeric_limits<float>::infinity()};
-    vary(data.receivers);
+    SharedLightCase data = without_lights(std::move(receivers), std::numeric_limits<float>::infinity());
     place_lights(data, 8, is_clear, [&](std::size_t, std::size_t, Pcg32& random) {
         const Vec3 outwards =
             normalize(Vec3{random.uniform() - 0.5f, random.uniform() - 0.5f, random.uniform() - 0.5f});
@@ -212,10 +213,7 @@ std::vector<Vec3> shared_irradiance(const SharedLightCase& data,
 
 SharedLightCase make_veiled_lights(std::vector<ReceiverPacket> receivers, const VeilsOracle& veils,
                                    const std::function<bool(Vec3, Vec3)>& is_clear) {
-    SharedLightCase data{.receivers = std::move(receivers),
-                         .found = {},
-                         .clamp_radius = std::numeric_limits<float>::infinity()};
-    vary(data.receivers);
+    SharedLightCase data = without_lights(std::move(receivers), std::numeric_limits<float>::infinity());
     place_lights(data, 8, is_clear, [&](std::size_t, std::size_t, Pcg32& random) {
         const std::size_t count = data.receivers.size() * NEARLIGHT_PACKET_SIZE;
         return receiver_at(data.receivers, random.next() % count);

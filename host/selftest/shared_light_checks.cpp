@@ -137,6 +137,29 @@ void expect_irradiance(const Buffer<IrradiancePacket>& irradiance, const std::ve
     }
 }
 
+/// Receivers in a room, and the light that is to be brought to them.
+struct Setup {
+    const Room& room;
+    const std::vector<ReceiverPacket>& receivers;
+    const ReceiverPathSettings& settings;
+    const std::vector<Vec3>& wanted;
+};
+
+/// Compares what add(batch, lists, irradiance) brings, with the visibility of either gather kernel.
+template <typename Add>
+void check_gathers(Device& device, const Setup& setup, CheckResult& result, const Add& add) {
+    const std::size_t packets = setup.receivers.size();
+    const Buffer<ReceiverPacket> receivers(device, setup.receivers);
+    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
+        const DeviceScene scene = upload_scene(device, setup.room.scene, setup.room.bvh, kernel);
+        Buffer<IrradiancePacket> irradiance(device, packets);
+        irradiance.fill_zero();
+        SharedLightLists lists(device, kernel);
+        add(ReceiverBatch{scene, receivers, packets, setup.settings}, lists, irradiance);
+        expect_irradiance(irradiance, setup.wanted, result);
+    }
+}
+
 }  // namespace
 
 void check_shared_lights(Device& device, CheckResult& result) {
@@ -148,17 +171,11 @@ void check_shared_lights(Device& device, CheckResult& result) {
                                         .max_edges = data.max_edges,
                                         .clamp_radius = data.clamp_radius,
                                         .seed = 1};
-    const Buffer<ReceiverPacket> receivers(device, data.receivers);
     const Buffer<SharedLight> lights(device, data.found);
-    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
-        Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
-        irradiance.fill_zero();
-        SharedLightLists lists(device, kernel);
-        SharedLights(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
-                                 irradiance);
-        expect_irradiance(irradiance, wanted, result);
-    }
+    const Setup setup{room, data.receivers, settings, wanted};
+    check_gathers(device, setup, result, [&](const ReceiverBatch& batch, auto& lists, auto& irradiance) {
+        SharedLights(device).add(batch, lists, lights, irradiance);
+    });
 }
 
 void check_shared_sky(Device& device, CheckResult& result) {
@@ -174,19 +191,14 @@ void check_shared_sky(Device& device, CheckResult& result) {
                                         .seed = 1};
     const std::vector<Vec3> wanted =
         shared_sky_irradiance(data, radiance, settings.light_samples, room.is_visible(), transmission);
-    const Buffer<ReceiverPacket> receivers(device, data.receivers);
     const Buffer<SharedLight> lights(device, data.found);
     const Buffer<SeenSurface> none_seen(device, 0);
     Buffer<CameraVertex> no_vertices(device, 0);
-    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
-        Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
-        irradiance.fill_zero();
-        SharedLightLists lists(device, kernel);
-        SharedSky(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
-                              {.surfaces = none_seen, .vertices = no_vertices}, irradiance);
-        expect_irradiance(irradiance, wanted, result);
-    }
+    const Setup setup{room, data.receivers, settings, wanted};
+    check_gathers(device, setup, result, [&](const ReceiverBatch& batch, auto& lists, auto& irradiance) {
+        SharedSky(device).add(batch, lists, lights, {.surfaces = none_seen, .vertices = no_vertices},
+                              irradiance);
+    });
 }
 
 void check_shared_veiled(Device& device, CheckResult& result) {
@@ -205,17 +217,11 @@ void check_shared_veiled(Device& device, CheckResult& result) {
                                         .clamp_radius = 1.0f,
                                         .seed = 1,
                                         .shares_veiled = true};
-    const Buffer<ReceiverPacket> receivers(device, data.receivers);
     const Buffer<SharedLight> lights(device, data.found);
-    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
-        Buffer<IrradiancePacket> irradiance(device, data.receivers.size());
-        irradiance.fill_zero();
-        SharedLightLists lists(device, kernel);
-        SharedVeiled(device).add({on_device, receivers, data.receivers.size(), settings}, lists, lights,
-                                 irradiance);
-        expect_irradiance(irradiance, wanted, result);
-    }
+    const Setup setup{room, data.receivers, settings, wanted};
+    check_gathers(device, setup, result, [&](const ReceiverBatch& batch, auto& lists, auto& irradiance) {
+        SharedVeiled(device).add(batch, lists, lights, irradiance);
+    });
 }
 
 void check_shared_reflections(Device& device, CheckResult& result) {
@@ -228,20 +234,14 @@ void check_shared_reflections(Device& device, CheckResult& result) {
                                         .clamp_radius = 1.0f,
                                         .seed = 1,
                                         .shares_reflections = true};
-    const std::size_t packets = data.lights.receivers.size();
-    const Buffer<ReceiverPacket> receivers(device, data.lights.receivers);
-    FoundLights found(device, packets, settings);
+    FoundLights found(device, data.lights.receivers.size(), settings);
     found.reflected.upload(data.lights.found);
     found.reflections.upload(data.reflections);
     found.spacing.upload(data.spacing);
-    for (const GatherKernel kernel : {GatherKernel::packets, GatherKernel::rays}) {
-        const DeviceScene on_device = upload_scene(device, room.scene, room.bvh, kernel);
-        Buffer<IrradiancePacket> irradiance(device, packets);
-        irradiance.fill_zero();
-        SharedLightLists lists(device, kernel);
-        SharedReflections(device).add({on_device, receivers, packets, settings}, lists, found, irradiance);
-        expect_irradiance(irradiance, wanted, result);
-    }
+    const Setup setup{room, data.lights.receivers, settings, wanted};
+    check_gathers(device, setup, result, [&](const ReceiverBatch& batch, auto& lists, auto& irradiance) {
+        SharedReflections(device).add(batch, lists, found, irradiance);
+    });
 }
 
 }  // namespace nearlight::core

@@ -101,11 +101,12 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                                " and its light samples from 1 to " + decimal(kMaxLightSamples));
         }
         origin.ray_budget = {.clamp_radius = radius, .light_samples_per_pixel = samples};
-        // A file whose pilot knew of no limit has none.
+        // It is optional: without it, bundles share everything.
         if (!value_of(header, "shared_limit").empty()) {
             origin.ray_budget->shared_limit = number_of<float>(file, header, "shared_limit");
-            if (!(origin.ray_budget->shared_limit >= 0.0f)) {
-                fail_ply(file, "the header's shared limit must be 0 or more");
+            if (!(origin.ray_budget->shared_limit >= 0.0f &&
+                  std::isfinite(origin.ray_budget->shared_limit))) {
+                fail_ply(file, "the header's shared limit must be a finite number that is 0 or more");
             }
         }
     }

@@ -24,8 +24,9 @@ struct ReceiverPathSettings {
     /// distance r has the weight max0(1 − r²/R²). Infinity counts all of it, 0 none.
     float clamp_radius = 0.0f;
     uint seed = 0;
-    /// How much of a place's radiance (W/m²/sr), as one path estimates it, run_sharing() leaves to `found`. The
-    /// excess stays with the receiver: a bundle would show it as a tile, where a receiver shows a dot.
+    /// How much of the light that one path brings from a lamp which it met by chance run_sharing() leaves to
+    /// `found`, as radiance of the place found (W/m²/sr). The excess stays with the receiver: a bundle would
+    /// show it as a tile, where a receiver shows a dot.
     float shared_limit = std::numeric_limits<float>::max();
     bool shares_sky = false;          ///< whether run_sharing() leaves light of the sky to `found`
     bool shares_veiled = false;       ///< whether it leaves Lambertian light of places behind veils there

@@ -201,9 +201,12 @@ TEST(VplFile, BrokenFilesAreErrors) {
                      "comment clamp_radius " + radius + "\ncomment light_samples " + samples + "\n"),
               "clamp radius must be from 0");
     }
-    fails(titled("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n"
-                 "comment clamp_radius 1\ncomment light_samples 16\ncomment shared_limit -1\n"),
-          "shared limit must be 0 or more");
+    for (const char* limit : {"-1", "nan", "inf"}) {
+        fails(
+            titled(std::string("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n") +
+                   "comment clamp_radius 1\ncomment light_samples 16\ncomment shared_limit " + limit + "\n"),
+            "shared limit must be a finite number");
+    }
     VplFile odd{.vpls = {Vpl{}}};
     odd.vpls[0].flags = 7u << NEARLIGHT_VPL_CURVE_SHIFT;
     expect_error([&] { check_vpls(odd, corner(), 8, "odd.ply"); }, ErrorKind::file, "transmission curve");

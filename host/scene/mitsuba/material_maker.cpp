@@ -178,14 +178,9 @@ uint MaterialMaker::make_blend(const Object& bsdf, int depth) {
 uint MaterialMaker::make_mixture(const Object& bsdf, int depth) {
     const std::vector<const Object*> nested = bsdf.nested("bsdf");
     const std::vector<double> weights = mixture_weights(bsdf, nested.size(), notes_);
-    double sum = 1.0 - std::accumulate(weights.begin(), weights.end(), 0.0);
-    uint all = 0;
-    const bool has_rest = sum > kWeightTolerance;
-    if (has_rest) {
-        all = add(diffuse_material({}));
-    } else {
-        sum = 0.0;
-    }
+    const double rest = 1.0 - std::accumulate(weights.begin(), weights.end(), 0.0);
+    double sum = rest > kWeightTolerance ? rest : 0.0;
+    uint all = sum > 0.0 ? add(diffuse_material({})) : 0;
     for (std::size_t i = nested.size(); i-- > 0;) {
         const uint one = make(*nested[i], depth + 1);
         const double others = sum;
