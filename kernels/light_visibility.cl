@@ -20,7 +20,8 @@ static inline bool reached_by(const SceneView* scene, uint index, float3 x, floa
     LightSample light;
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
         const MapSample map = map_sample_towards_sun(scene, u);
-        light = sample_of_sky(scene, x, n, &map);
+        const LightReceiver at = even_receiver(x, n);
+        light = sample_of_sky(scene, &at, &map);
     } else {
         light = sample_emitter(scene, index, x, u);
     }

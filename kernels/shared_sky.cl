@@ -43,7 +43,8 @@ static inline ArrivingSky arriving_sky(const SceneView* scene, const global Shar
     sky.solid = -dot(load3(light->normal), sky.direction) / squared;
     sky.cosine = dot(n, sky.direction);
     const MapSample map = map_sample_towards(scene, sky.direction);
-    const LightSample sample = sample_of_sky(scene, x, n, &map);
+    const LightReceiver at = even_receiver(x, n);
+    const LightSample sample = sample_of_sky(scene, &at, &map);
     sky.radiance = light_radiance(scene, &sample);
     sky.pdf = sample.pdf;
     return sky;

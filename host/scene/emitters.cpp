@@ -127,9 +127,14 @@ void add_area_lights(const Scene& scene, std::vector<Emitter>& emitters) {
     }
 }
 
+bool is_directional(const Emitter& emitter) {
+    return emitter.type == NEARLIGHT_EMITTER_DIRECTIONAL;
+}
+
 /// All lights, even those without power, with probabilities that are not yet filled in.
 std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
+    std::ranges::stable_partition(emitters, is_directional);
     add_area_lights(scene, emitters);
     if (scene.environment.sun_half_angle > 0.0f) {
         Emitter emitter{};
@@ -180,6 +185,19 @@ std::vector<double> choice_probabilities(std::span<const Emitter> emitters, std:
     return probabilities;
 }
 
+/// Which lights have a tree: area lights, and lamps without a surface where they are too many to be summed.
+void set_tree_range(EmitterTable& table) {
+    const auto count_if = [&](auto&& is_kind) {
+        return static_cast<uint>(std::ranges::count_if(table.emitters, is_kind));
+    };
+    const bool are_summed = table.delta_emitter_count <= NEARLIGHT_MAX_EXACT_LIGHTS;
+    table.tree_first = are_summed ? table.delta_emitter_count : count_if(is_directional);
+    table.tree_end = table.delta_emitter_count + count_if(is_area_light);
+    if (table.tree_end - table.tree_first < kMinTreeLights) {
+        table.tree_end = table.tree_first;
+    }
+}
+
 }  // namespace
 
 bool is_area_light(const Emitter& emitter) {
@@ -212,7 +230,8 @@ EmitterTable build_emitter_table(const Scene& scene) {
         table.emitters[i].cdf = cdf[i];
         table.emitters[i].probability = i > 0 ? cdf[i] - cdf[i - 1] : cdf[i];
     }
-    table.light_tree = build_light_tree(scene, table.emitters);
+    set_tree_range(table);
+    table.light_tree = build_light_tree(scene, table.emitters, table.tree_first, table.tree_end);
     table.total_power = static_cast<float>(total);
     return table;
 }

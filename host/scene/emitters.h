@@ -14,9 +14,10 @@ bool is_area_light(const Emitter& emitter);
 bool is_delta_light(const Emitter& emitter);
 
 struct EmitterTable {
-    /// Delta lights, area lights, the sun, the environment; cdf ends at exactly 1.
+    /// Directional lights, other delta lights, area lights, the sun, the environment; cdf ends at exactly 1.
     std::vector<Emitter> emitters;
-    std::vector<LightNode> light_tree;  ///< of the area lights; empty if they are few (light_tree.h)
+    std::vector<LightNode> light_tree;  ///< over some of them (light_tree.h)
+    uint tree_first = 0, tree_end = 0;  ///< those of the tree: entries of the table; equal: no tree
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };

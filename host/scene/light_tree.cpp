@@ -2,7 +2,6 @@
 #include "host/scene/light_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -58,12 +57,14 @@ NormalCone cone_of_both(const NormalCone& a, const NormalCone& b) {
 /// What is known of a set of lights.
 struct LightBounds {
     Aabb box;
-    NormalCone cone;
+    NormalCone cone;        ///< of where they face
+    double cos_beam = 1.0;  ///< none shines farther than this angle from there
     double power = 0.0;
 
     void extend(const LightBounds& other) {
         box.extend(other.box);
         cone = cone_of_both(cone, other.cone);
+        cos_beam = std::min(cos_beam, other.cos_beam);
         power += other.power;
     }
     /// The cost of a node with these lights: its power, the area of its box, and the solid angle into which
@@ -88,32 +89,65 @@ struct TreeLight {
     uint emitter = 0;  ///< index into the table
 };
 
+LightBounds bounds_of_triangle(const Scene& scene, const Triangle& triangle, double flux) {
+    LightBounds bounds;
+    for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
+        bounds.box.extend(scene.vertices[vertex].position);
+    }
+    const Vec3 v0 = scene.vertices[triangle.v0].position;
+    bounds.cone.axis = normalize(
+        cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
+    bounds.cone.angle = 0.0;
+    bounds.cos_beam = 0.0;
+    bounds.power = flux;
+    return bounds;
+}
+
+/// A sphere or cylinder, which shines to all sides.
+LightBounds bounds_of_round_lamp(const Emitter& emitter, double flux) {
+    LightBounds bounds;
+    const Vec3 half_size = Vec3{1, 1, 1} * emitter.outer_radius;
+    for (const Vec3 end : {emitter.position, emitter.position + emitter.direction * emitter.length}) {
+        bounds.box.extend(end - half_size);
+        bounds.box.extend(end + half_size);
+    }
+    bounds.cone = NormalCone::of({0, 0, 1}, std::numbers::pi);
+    bounds.power = flux * (emitter.type == NEARLIGHT_EMITTER_SPHERE ? 0.25 : 1 / std::numbers::pi);
+    return bounds;
+}
+
+/// The cosine of the angle from the axis within which a spot or projector shines.
+double beam_limit(const Emitter& emitter) {
+    if (emitter.type == NEARLIGHT_EMITTER_SPOT) {
+        return std::cos(emitter.cutoff_angle);
+    }
+    // At the corner of an image, d·x_axis and d·y_axis are half of d·direction.
+    const double slope = 0.5 * std::hypot(1.0 / length(emitter.x_axis), 1.0 / length(emitter.y_axis));
+    return 1.0 / std::hypot(1.0, slope);
+}
+
+LightBounds bounds_of_point(const Emitter& emitter) {
+    LightBounds bounds;
+    bounds.box.extend(emitter.position);
+    const bool shines_everywhere = emitter.type == NEARLIGHT_EMITTER_POINT;
+    bounds.cone = shines_everywhere ? NormalCone::of({0, 0, 1}, std::numbers::pi)
+                                    : NormalCone::of(emitter.direction, 0.0);
+    bounds.cos_beam = shines_everywhere ? 1.0 : beam_limit(emitter);
+    bounds.power = static_cast<double>(kPi) * luminance(emitter.radiance);
+    return bounds;
+}
+
 /// A light's power in the tree is π times its greatest intensity, which is the flux of a triangle, but a
 /// quarter of that of a sphere and 1/π of that of a cylinder, which shine to all sides. So lights that are
 /// equally bright from their best side count alike.
 TreeLight make_light(const Scene& scene, const Emitter& emitter, uint index) {
+    const double flux = static_cast<double>(kPi) * emitter.area * luminance(emitter.radiance);
     TreeLight light;
     light.emitter = index;
-    const double flux = static_cast<double>(kPi) * emitter.area * luminance(emitter.radiance);
-    if (emitter.type != NEARLIGHT_EMITTER_TRIANGLE) {
-        const Vec3 half_size = Vec3{1, 1, 1} * emitter.outer_radius;
-        for (const Vec3 end : {emitter.position, emitter.position + emitter.direction * emitter.length}) {
-            light.bounds.box.extend(end - half_size);
-            light.bounds.box.extend(end + half_size);
-        }
-        light.bounds.cone = NormalCone::of({0, 0, 1}, std::numbers::pi);
-        light.bounds.power = flux * (emitter.type == NEARLIGHT_EMITTER_SPHERE ? 0.25 : 1 / std::numbers::pi);
-    } else {
-        const Triangle& triangle = scene.triangles[emitter.triangle];
-        for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
-            light.bounds.box.extend(scene.vertices[vertex].position);
-        }
-        const Vec3 v0 = scene.vertices[triangle.v0].position;
-        light.bounds.cone.axis = normalize(
-            cross(scene.vertices[triangle.v1].position - v0, scene.vertices[triangle.v2].position - v0));
-        light.bounds.cone.angle = 0.0;
-        light.bounds.power = flux;
-    }
+    light.bounds = is_delta_light(emitter) ? bounds_of_point(emitter)
+                   : emitter.type == NEARLIGHT_EMITTER_TRIANGLE
+                       ? bounds_of_triangle(scene, scene.triangles[emitter.triangle], flux)
+                       : bounds_of_round_lamp(emitter, flux);
     light.center = light.bounds.box.center();
     return light;
 }
@@ -142,33 +176,76 @@ struct LightSplit {
     double cost = kInfinity;
 };
 
+/// The lights of one node: a part of those of its parent.
+struct LightRange {
+    std::size_t first = 0, end = 0;
+    LightBounds bounds;
+
+    [[nodiscard]] std::size_t count() const { return end - first; }
+};
+
+LightNode node_of(const LightRange& lights) {
+    LightNode node{};
+    node.low = lights.bounds.box.min;
+    node.high = lights.bounds.box.max;
+    node.power = static_cast<float>(lights.bounds.power);
+    node.axis = lights.bounds.cone.axis;
+    node.cos_beam = static_cast<float>(lights.bounds.cos_beam);
+    // Rounding must not leave a light outside.
+    node.cos_spread =
+        static_cast<float>(std::cos(std::min(lights.bounds.cone.angle + 1e-4, std::numbers::pi)));
+    return node;
+}
+
 class LightTreeBuilder {
   public:
     LightTreeBuilder(std::vector<TreeLight>& lights, std::vector<Emitter>& emitters)
-        : lights_(lights), emitters_(emitters) {
-        nodes_.reserve(2 * lights.size());
-    }
+        : lights_(lights), emitters_(emitters) {}
 
     std::vector<LightNode> build() {
-        add_node(0, lights_.size(), 0, 0);
+        const LightRange all = range(0, lights_.size());
+        nodes_.push_back(node_of(all));
+        add_below(0, all, 0, 0);
         return std::move(nodes_);
     }
 
   private:
-    void add_node(std::size_t first, std::size_t end, int depth, uint way);
-    std::size_t part(std::size_t first, std::size_t end, const LightBounds& bounds, int depth);
-    [[nodiscard]] LightSplit best_split(std::span<const TreeLight> lights, const Aabb& centers,
-                                        const LightBounds& bounds) const;
+    void add_below(std::size_t node, const LightRange& lights, uint depth, uint way);
+    [[nodiscard]] std::vector<LightRange> children_of(const LightRange& lights, uint depth);
+    [[nodiscard]] LightRange range(std::size_t first, std::size_t end) const;
+    [[nodiscard]] std::size_t best_part(const LightRange& lights);
+    [[nodiscard]] std::size_t halve(const LightRange& lights);
+    [[nodiscard]] LightSplit best_split(const LightRange& lights, const Aabb& centers) const;
+    [[nodiscard]] Aabb centers_of(const LightRange& lights) const;
+
+    [[nodiscard]] std::span<TreeLight> in(const LightRange& lights) const {
+        return std::span(lights_).subspan(lights.first, lights.count());
+    }
 
     std::vector<TreeLight>& lights_;
     std::vector<Emitter>& emitters_;
     std::vector<LightNode> nodes_;
 };
 
-LightSplit LightTreeBuilder::best_split(std::span<const TreeLight> lights, const Aabb& centers,
-                                        const LightBounds& bounds) const {
+LightRange LightTreeBuilder::range(std::size_t first, std::size_t end) const {
+    LightRange range{first, end, {}};
+    for (std::size_t i = first; i < end; ++i) {
+        range.bounds.extend(lights_[i].bounds);
+    }
+    return range;
+}
+
+Aabb LightTreeBuilder::centers_of(const LightRange& lights) const {
+    Aabb centers;
+    for (const TreeLight& light : in(lights)) {
+        centers.extend(light.center);
+    }
+    return centers;
+}
+
+LightSplit LightTreeBuilder::best_split(const LightRange& lights, const Aabb& centers) const {
     LightSplit best;
-    const Vec3 size = bounds.box.size();
+    const Vec3 size = lights.bounds.box.size();
     for (int axis = 0; axis < 3; ++axis) {
         const double extent = light_axis_component(size, axis);
         if (!(light_axis_component(centers.size(), axis) > 0.0)) {
@@ -176,7 +253,7 @@ LightSplit LightTreeBuilder::best_split(std::span<const TreeLight> lights, const
         }
         std::array<LightBounds, kBins> bins;
         const LightBins mapping(centers, axis);
-        for (const TreeLight& light : lights) {
+        for (const TreeLight& light : in(lights)) {
             bins[mapping.of(light)].extend(light.bounds);
         }
         // Thin boxes, which splits along short axes leave, cost more.
@@ -199,71 +276,88 @@ LightSplit LightTreeBuilder::best_split(std::span<const TreeLight> lights, const
     return best;
 }
 
-/// Orders the lights so that those of the first child stand before the returned index.
-std::size_t LightTreeBuilder::part(std::size_t first, std::size_t end, const LightBounds& bounds, int depth) {
-    const std::size_t count = end - first;
-    const auto begin = lights_.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto behind = lights_.begin() + static_cast<std::ptrdiff_t>(end);
-    Aabb centers;
-    for (auto light = begin; light != behind; ++light) {
-        centers.extend(light->center);
-    }
-    // Two lights have only halves. Where halves would just fit into the depth that remains, they are taken.
-    const bool must_halve = count == 2 || depth + std::bit_width(count - 1) >= NEARLIGHT_MAX_LIGHT_TREE_DEPTH;
-    const LightSplit split = must_halve ? LightSplit{} : best_split({begin, behind}, centers, bounds);
+/// Orders the lights so that those of the best split's first part stand before the returned index.
+std::size_t LightTreeBuilder::best_part(const LightRange& lights) {
+    // Two lights have only halves.
+    const Aabb centers = centers_of(lights);
+    const LightSplit split = lights.count() == 2 ? LightSplit{} : best_split(lights, centers);
     if (split.axis >= 0) {
         const LightBins mapping(centers, split.axis);
-        const auto middle = std::partition(
-            begin, behind, [&](const TreeLight& light) { return mapping.of(light) < split.border; });
-        if (middle != begin && middle != behind) {
-            return static_cast<std::size_t>(middle - lights_.begin());
+        const std::span<TreeLight> parted = in(lights);
+        const auto behind = std::ranges::partition(
+            parted, [&](const TreeLight& light) { return mapping.of(light) < split.border; });
+        if (behind.size() > 0 && behind.size() < parted.size()) {
+            return lights.end - behind.size();
         }
     }
-    const Vec3 size = centers.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto half = begin + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(begin, half, behind, [&](const TreeLight& a, const TreeLight& b) {
-        return light_axis_component(a.center, axis) < light_axis_component(b.center, axis);
-    });
-    return first + count / 2;
+    return halve(lights);
 }
 
-void LightTreeBuilder::add_node(std::size_t first, std::size_t end, int depth, uint way) {
-    LightBounds bounds;
-    for (std::size_t i = first; i < end; ++i) {
-        bounds.extend(lights_[i].bounds);
+/// Orders the lights along the longest axis of their box, so that one half stands before the returned index.
+std::size_t LightTreeBuilder::halve(const LightRange& lights) {
+    const Vec3 size = centers_of(lights).size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::span<TreeLight> halved = in(lights);
+    const auto middle = static_cast<std::ptrdiff_t>(lights.count() / 2);
+    std::ranges::nth_element(halved, halved.begin() + middle, {}, [&](const TreeLight& light) {
+        return light_axis_component(light.center, axis);
+    });
+    return lights.first + lights.count() / 2;
+}
+
+/// Parts the lights until there are as many parts as a node may have, or each is one light. The part that
+/// costs most is parted next, and the largest is halved where the tree would else become too deep.
+std::vector<LightRange> LightTreeBuilder::children_of(const LightRange& lights, uint depth) {
+    const uint levels_left = NEARLIGHT_MAX_LIGHT_TREE_DEPTH - depth - 1;
+    const bool must_halve =
+        static_cast<double>(lights.count()) > std::pow(NEARLIGHT_LIGHT_TREE_WIDTH, levels_left);
+    std::vector<LightRange> parts{lights};
+    while (parts.size() < NEARLIGHT_LIGHT_TREE_WIDTH && parts.size() < lights.count()) {
+        const auto next = std::ranges::max_element(parts, {}, [&](const LightRange& part) {
+            return part.count() == 1 ? -1.0
+                   : must_halve      ? static_cast<double>(part.count())
+                                     : part.bounds.cost();
+        });
+        const std::size_t middle = must_halve ? halve(*next) : best_part(*next);
+        const LightRange second = range(middle, next->end);
+        *next = range(next->first, middle);
+        parts.push_back(second);
     }
-    LightNode node{};
-    node.low = bounds.box.min;
-    node.high = bounds.box.max;
-    node.power = static_cast<float>(bounds.power);
-    node.axis = bounds.cone.axis;
-    // Rounding must not leave a light outside.
-    node.cos_spread = static_cast<float>(std::cos(std::min(bounds.cone.angle + 1e-4, std::numbers::pi)));
-    const std::size_t place = nodes_.size();
-    nodes_.push_back(node);
-    if (end - first == 1) {
-        nodes_[place].emitter = lights_[first].emitter;
-        emitters_[lights_[first].emitter].tree_way = way;
+    return parts;
+}
+
+/// Adds all nodes below `node`, to which `way` leads through `depth` others.
+void LightTreeBuilder::add_below(std::size_t node, const LightRange& lights, uint depth, uint way) {
+    if (lights.count() == 1) {
+        nodes_[node].emitter = lights_[lights.first].emitter;
+        emitters_[lights_[lights.first].emitter].tree_way = way;
         return;
     }
-    const std::size_t middle = part(first, end, bounds, depth);
-    add_node(first, middle, depth + 1, way);
-    nodes_[place].second_child = static_cast<uint>(nodes_.size());
-    add_node(middle, end, depth + 1, way | (1u << depth));
+    const std::vector<LightRange> children = children_of(lights, depth);
+    const std::size_t first = nodes_.size();
+    nodes_[node].first_child = static_cast<uint>(first);
+    nodes_[node].child_count = static_cast<uint>(children.size());
+    for (const LightRange& child : children) {
+        nodes_.push_back(node_of(child));
+    }
+    uint digit = 1;
+    for (uint level = 0; level < depth; ++level) {
+        digit *= NEARLIGHT_LIGHT_TREE_WIDTH;
+    }
+    for (uint i = 0; i < children.size(); ++i) {
+        add_below(first + i, children[i], depth + 1, way + i * digit);
+    }
 }
 
 }  // namespace
 
-std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters) {
+std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters, uint first,
+                                        uint end) {
     std::vector<TreeLight> lights;
-    for (std::size_t i = 0; i < emitters.size(); ++i) {
-        if (is_area_light(emitters[i])) {
-            lights.push_back(make_light(scene, emitters[i], static_cast<uint>(i)));
-        }
+    for (uint i = first; i < end; ++i) {
+        lights.push_back(make_light(scene, emitters[i], i));
     }
-    return lights.size() < kMinTreeLights ? std::vector<LightNode>{}
-                                          : LightTreeBuilder(lights, emitters).build();
+    return lights.empty() ? std::vector<LightNode>{} : LightTreeBuilder(lights, emitters).build();
 }
 
 }  // namespace nearlight::core

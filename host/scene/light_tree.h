@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of area lights, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
+// The tree of lamps, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
 // Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018].
 #pragma once
 
@@ -9,12 +9,14 @@
 
 namespace nearlight::core {
 
-/// Fewer area lights than this are chosen by power, which is quicker.
-inline constexpr std::size_t kMinTreeLights = 8;
+/// Fewer lights need no tree.
+inline constexpr std::size_t kMinTreeLights = 2;
 
-/// Builds the tree of all area lights in the table of lights, and writes Emitter::tree_way of each.
-/// The tree is empty if there are fewer than kMinTreeLights of them. Node 0 is the root, and the first child
-/// of a node stands behind it. No leaf is deeper than NEARLIGHT_MAX_LIGHT_TREE_DEPTH.
-std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters);
+/// Builds the tree of the entries [first, end) of the table of lights, which have a place, and writes
+/// Emitter::tree_way of each. The tree is empty if there are none. Node 0 is the root, and the children of a
+/// node, at most NEARLIGHT_LIGHT_TREE_WIDTH, stand one behind the other. No leaf is deeper than
+/// NEARLIGHT_MAX_LIGHT_TREE_DEPTH.
+std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters, uint first,
+                                        uint end);
 
 }  // namespace nearlight::core

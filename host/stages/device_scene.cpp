@@ -114,7 +114,8 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
             .has_specular = std::ranges::any_of(
                 scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,
-            .light_node_count = static_cast<uint>(emitters.light_tree.size()),
+            .tree_first = emitters.tree_first,
+            .tree_end = emitters.tree_end,
             .has_maps = std::ranges::any_of(scene.materials, is_map),
             .veils = veils_of(scene),
             .has_sky = std::ranges::any_of(emitters.emitters, [](const Emitter& emitter) {

@@ -200,10 +200,11 @@ static inline void find_reflected_lights(const SceneView* scene, const SurfaceHi
                                          float scale, uint seed, FoundReflection* found) {
     const uint exact = exact_light_count(scene);
     const uint count = exact + (has_sampled_lights(scene) ? 1 : 0);
+    const LightReceiver at = even_receiver(hit->position, surface->frame.n);
     for (uint i = 0; i < count; ++i) {
-        const LightSample light = i < exact ? exact_light(scene, i, hit->position)
-                                            : sample_light(scene, hit->position, surface->frame.n,
-                                                           sample_2d(0, 0, seed), sample_2d(0, 1, seed));
+        const LightSample light =
+            i < exact ? exact_light(scene, i, hit->position)
+                      : sample_light(scene, &at, sample_2d(0, 0, seed), sample_2d(0, 1, seed));
         const float u = to_unit_float(random_uint4((uint4)(seed, i, 0xe3ac7u, 0u)).x);
         find_reflected_sample(scene, hit, surface, place, &light, max_veils, scale, u, found);
     }
@@ -296,6 +297,8 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
         return false;
     }
     if (begins_bundle_path) {
+        // All viewers in the bundle share the density of light samples, which must not depend on one of them.
+        path->ray.from = even_receiver(path->ray.from.x, path->ray.from.n);
         ArrivingRay* ray = &path->of_bundle.ray;
         ray->direction = path->ray.direction;
         ray->pdf = path->ray.pdf;
@@ -317,7 +320,7 @@ static inline bool is_found_behind_veils(const SceneView* scene, const Continued
         return false;
     }
     // A ray that passes a veil may miss a surface that coincides with it.
-    const float3 x = path->ray.scattered_at;
+    const float3 x = path->ray.from.x;
     const float3 y = offset_point(scene, path->hit.position, path->hit.geometric);
     return !tree_occluded(scene->nodes, scene->solids, x, y - x, NEARLIGHT_SEGMENT_T_MIN,
                           NEARLIGHT_SEGMENT_T_MAX);
@@ -332,7 +335,7 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Ra
     if (surfaces == 1) {
         surface = first_surface(scene, &path->hit, path->ray.direction, share,
                                 (float2)(numbers.model, numbers.way), &path->way);
-        path->of_bundle = begin_bundle_path(scene, found, path->ray.scattered_at, &path->hit, &surface,
+        path->of_bundle = begin_bundle_path(scene, found, path->ray.from.x, &path->hit, &surface,
                                             numbers.model, numbers.goes_on, &path->way);
         parts = path->way.parts;
         if (parts == 0 || path->way.max_edges < 2) {

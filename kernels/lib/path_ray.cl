@@ -18,6 +18,17 @@ static inline float bundle_density(float3 normal, float3 direction, float bundle
     return bundle_ratio * fmax(dot(normal, direction), 0.0f) * M_1_PI_F;
 }
 
+/// The given parts of a surface as what asks lights. A tenth of the choice follows irradiance even where
+/// there is a lobe, for S may reflect in other ways besides.
+static inline LightReceiver light_receiver(float3 x, const SurfaceBsdf* surface, uint parts) {
+    LightReceiver at = even_receiver(x, surface->frame.n);
+    at.viewer = surface->wo;
+    at.alpha = lobe_roughness(&surface->bsdf);
+    const float share = parts == BSDF_S ? 1.0f : parts == BSDF_D ? 0.0f : surface->s_share;
+    at.gloss = at.alpha > 0.0f ? 0.9f * share : 0.0f;
+    return at;
+}
+
 /// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
 /// surface also sends `path_ratio` rays for each light sample, and `bundle_ratio` of its bundle look for the
 /// sky.
@@ -72,11 +83,12 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
     }
     const float path_ratio = (float)quota->rays / (float)quota->samples;
     const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
+    const LightReceiver at = light_receiver(hit->position, surface, parts);
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < quota->samples; ++s) {
         const uint number = quota->first + s;
-        const LightSample light = sample_light(scene, hit->position, surface->frame.n,
-                                               sample_2d(number, 0, key), sample_2d(number, 1, key));
+        const LightSample light =
+            sample_light(scene, &at, sample_2d(number, 0, key), sample_2d(number, 1, key));
         sum +=
             reflected_sample(scene, hit, surface, &light, parts, path_ratio, bundle_ratio, quota->max_veils);
     }
@@ -88,12 +100,11 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
 typedef struct PathRay {
     float3 origin, direction;
     float3 throughput;
-    float3 scattered_at;
-    float3 normal;  // where it was scattered
-    float pdf;      // density of the direction, per steradian, times rays for each light sample; 0: a delta
-    float share;    // of the light straight from where it was scattered; rays beside it bring the rest
-    float passed;   // distance from scattered_at to the last veil
-    float index;    // refractive index of what it is in ÷ that of where its path began
+    LightReceiver from;  // where it was scattered
+    float pdf;     // density of the direction, per steradian, times rays for each light sample; 0: a delta
+    float share;   // of the light straight from where it was scattered; rays beside it bring the rest
+    float passed;  // distance from there to the last veil
+    float index;   // refractive index of what it is in ÷ that of where its path began
     float bundle_ratio;  // rays of a bundle that look for the sky as this one does, for each light sample
     uint veils;          // veils that the ray has passed since it was scattered
 } PathRay;
@@ -108,9 +119,10 @@ static inline PathRay first_ray(float3 direction) {
 }
 
 /// Sets where the ray was scattered to where it starts.
-static inline void begin_ray(PathRay* ray, float3 origin, float3 normal, float pdf) {
-    ray->origin = ray->scattered_at = origin;
-    ray->normal = normal;
+static inline void begin_ray(PathRay* ray, float3 origin, const LightReceiver* from, float pdf) {
+    ray->origin = origin;
+    ray->from = *from;
+    ray->from.x = origin;
     ray->pdf = pdf;
     ray->share = 1.0f;
     ray->passed = 0.0f;
@@ -135,13 +147,13 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
     met.of_others = 0.0f;
     if (hit->t < 0.0f) {
         const MapSample map = map_sample_towards(scene, ray->direction);
-        const LightSample sky = sample_of_sky(scene, ray->scattered_at, ray->normal, &map);
+        const LightSample sky = sample_of_sky(scene, &ray->from, &map);
         met.radiance = light_radiance(scene, &sky);
         if (shares_met_light(ray)) {
             met.of_others = sky.pdf;
             if (ray->bundle_ratio > 0.0f &&
-                (ray->veils == 0 || bundle_finds_sky(scene, ray->scattered_at, ray->direction))) {
-                met.of_others += bundle_density(ray->normal, ray->direction, ray->bundle_ratio);
+                (ray->veils == 0 || bundle_finds_sky(scene, ray->from.x, ray->direction))) {
+                met.of_others += bundle_density(ray->from.n, ray->direction, ray->bundle_ratio);
             }
         }
         return met;
@@ -150,7 +162,7 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
     if (!is_black(met.radiance) && shares_met_light(ray)) {
         SurfaceHit seen = *hit;
         seen.t += ray->passed;
-        met.of_others = light_pdf(scene, ray->scattered_at, ray->normal, ray->direction, &seen);
+        met.of_others = light_pdf(scene, &ray->from, ray->direction, &seen);
     }
     return met;
 }
@@ -186,8 +198,8 @@ OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit
         ray->passed += hit->t;
         ++ray->veils;
     } else {
-        begin_ray(ray, ray_origin(scene, hit, sample.wi), surface->frame.n,
-                  sample.is_delta ? 0.0f : sample.pdf);
+        const LightReceiver from = light_receiver(hit->position, surface, parts);
+        begin_ray(ray, ray_origin(scene, hit, sample.wi), &from, sample.is_delta ? 0.0f : sample.pdf);
     }
     return !is_black(ray->throughput);
 }
@@ -206,7 +218,7 @@ static inline float3 light_along(const SceneView* scene, PathRay ray, uint max_v
     float3 sum = (float3)(0.0f);
     float t_min = 0.0f;
     while (!is_black(ray.throughput)) {
-        const SurfaceHit hit = trace_between(scene, ray.scattered_at, ray.direction, t_min, INFINITY);
+        const SurfaceHit hit = trace_between(scene, ray.from.x, ray.direction, t_min, INFINITY);
         sum += ray.throughput * met_light(scene, &ray, &hit);
         if (hit.t < 0.0f || ray.veils >= min(max_veils, (uint)NEARLIGHT_MAX_VEILS) ||
             scene->info->veils == NEARLIGHT_VEILS_NONE) {

@@ -55,7 +55,8 @@ static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* 
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
                               receiver_map_factor(at, ray.direction));
-    begin_ray(&ray, at->x, at->n, rays_per_light_sample * cosine * M_1_PI_F);
+    const LightReceiver from = even_receiver(at->x, at->n);
+    begin_ray(&ray, at->x, &from, rays_per_light_sample * cosine * M_1_PI_F);
     return ray;
 }
 

@@ -79,9 +79,9 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
-/// sends `path_count` rays too. Delta lights up to MAX_EXACT_LIGHTS are exact. Without rays, light samples
-/// bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays of the
-/// bundle as `bundle_count` look for the sky too.
+/// sends `path_count` rays too. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. Without rays, light
+/// samples bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays
+/// of the bundle as `bundle_count` look for the sky too.
 static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
                                           uint path_count, uint bundle_count, uint max_veils, uint first,
                                           uint seed) {
@@ -95,12 +95,13 @@ static inline float3 sampled_direct_light(const SceneView* scene, const Receiver
     }
     const float path_ratio = (float)path_count / (float)sample_count;
     const float bundle_ratio = (float)bundle_count / (float)sample_count;
+    const LightReceiver receiver = even_receiver(at->x, at->n);
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < sample_count; ++s) {
         const float2 choice = sample_2d(first + s, 0, seed);
         const float2 u = sample_2d(first + s, 1, seed);
-        const LightSample light = path_count > 0 ? sample_light(scene, at->x, at->n, choice, u)
-                                                 : sample_light_or_cosine(scene, at->x, at->n, choice, u);
+        const LightSample light = path_count > 0 ? sample_light(scene, &receiver, choice, u)
+                                                 : sample_light_or_cosine(scene, &receiver, choice, u);
         sum += sampled_irradiance(scene, at, &light, path_ratio, bundle_ratio, max_veils);
     }
     return exact + sum / (float)sample_count;

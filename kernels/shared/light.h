@@ -19,8 +19,8 @@ namespace nearlight::core {
 #define NEARLIGHT_EMITTER_SPHERE 7u
 #define NEARLIGHT_EMITTER_CYLINDER 8u
 
-/// One entry of the table of lights, which lists delta lights (point, spot, projector, directional), then
-/// area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
+/// One entry of the table of lights, which lists delta lights (directional, then point, spot and projector),
+/// then area lights (triangle, sphere, cylinder) in the order of their triangles, then the sun and the
 /// environment. An entry is chosen with `probability`: each kind of light that there is has the same part,
 /// which its entries share in proportion to their emitted power (host/scene/emitters.h). A sphere or cylinder
 /// is one light, although rays meet the triangles that stand for it.
@@ -43,26 +43,33 @@ typedef struct Emitter {
     Vec3 x_axis;
     uint image;  // index of the texture plus 1; 0: none
     Vec3 y_axis;
-    uint tree_way;        // area light: its way through the tree of lights, lowest bit first; 1: second child
+    uint tree_way;        // its way down the tree of lights, a digit of base NEARLIGHT_LIGHT_TREE_WIDTH for
+                          // the child of each node, that of the root first
     float radius;         // sphere, cylinder: m
     float outer_radius;   // all its triangles lie within this distance of its centre or axis, m
     float length;         // cylinder: m
     uint triangle_count;  // area light: triangles that belong to it, from `triangle` on
 } Emitter;
 
-/// A node of the tree of area lights: the bounds of all lights below it. The first child stands behind
-/// its parent.
+/// Up to this many delta lights are all summed. If there are more, they are chosen by chance like the other
+/// lights.
+#define NEARLIGHT_MAX_EXACT_LIGHTS 16u
+
+/// A node of the tree of lights: the bounds of all lights below it. Its children stand one behind the other.
 typedef struct LightNode {
     Vec3 low;
-    float power;  // π times the greatest luminous intensity, W: the luminance of a triangle's flux
+    float power;  // π times the greatest intensity, W: the luminance of a triangle's flux
     Vec3 high;
-    float cos_spread;  // all fronts face within this angle of the axis
+    float cos_spread;  // all lights face within this angle of the axis
     Vec3 axis;
-    uint second_child;  // 0: a leaf
-    uint emitter;       // leaf: index into the table of lights
-    uint pad0, pad1, pad2;
+    uint first_child;
+    uint child_count;  // 0: a leaf
+    uint emitter;      // leaf: index into the table of lights
+    float cos_beam;    // none shines farther than this angle from where it faces
+    uint pad0;
 } LightNode;
-#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 32  // bits of Emitter.tree_way
+#define NEARLIGHT_LIGHT_TREE_WIDTH 8u       // most children of a node
+#define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 10u  // digits of Emitter.tree_way
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance

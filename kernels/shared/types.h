@@ -272,14 +272,14 @@ typedef struct CloseRange {
 typedef struct SceneInfo {
     uint triangle_count;
     uint emitter_count;
-    uint delta_emitter_count;  // delta lights: the first entries of the table
-    float extent;              // largest side of the scene's bounds, m
-    uint has_specular;         // 1: some surface reflects other than by a Lambertian part
-    uint has_curves;           // 1: some surface has a transmission curve
-    uint light_node_count;     // 0: no tree of lights, area lights are chosen by power
-    uint has_maps;             // 1: some surface has a normal or bump map
-    uint veils;                // what lets light pass straight on: NEARLIGHT_VEILS_…
-    uint has_sky;              // 1: there is an environment map or a sun
+    uint delta_emitter_count;   // delta lights: the first entries of the table
+    float extent;               // largest side of the scene's bounds, m
+    uint has_specular;          // 1: some surface reflects other than by a Lambertian part
+    uint has_curves;            // 1: some surface has a transmission curve
+    uint tree_first, tree_end;  // the lights of the tree of lights: entries of the table; equal: no tree
+    uint has_maps;              // 1: some surface has a normal or bump map
+    uint veils;                 // what lets light pass straight on: NEARLIGHT_VEILS_…
+    uint has_sky;               // 1: there is an environment map or a sun
 } SceneInfo;
 #define NEARLIGHT_VEILS_NONE 0u   // nothing
 #define NEARLIGHT_VEILS_THIN 1u   // thin panes, masks and `null`
@@ -318,7 +318,7 @@ NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
-NEARLIGHT_CHECK_SHARED(SceneInfo, 40);
+NEARLIGHT_CHECK_SHARED(SceneInfo, 44);
 }  // namespace nearlight::core
 #endif
 

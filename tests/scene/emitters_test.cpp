@@ -131,8 +131,9 @@ TEST(EmitterTable, EachKindOfLightHasItsPartOfTheChoice) {
                          .sun_radiance = {1000, 1000, 1000}};
     const EmitterTable table = build_emitter_table(scene);
     ASSERT_EQ(table.emitters.size(), 6u);
-    EXPECT_NEAR(table.emitters[0].probability, 1.0 / 5 / 4, 1e-6);
-    EXPECT_NEAR(table.emitters[1].probability, 1.0 / 5 * 3 / 4, 1e-6);
+    EXPECT_EQ(table.emitters[0].type, NEARLIGHT_EMITTER_DIRECTIONAL);
+    EXPECT_NEAR(table.emitters[1].probability, 1.0 / 5 / 4, 1e-6);
+    EXPECT_NEAR(table.emitters[2].probability, 1.0 / 5 * 3 / 4, 1e-6);
     for (const uint type : {NEARLIGHT_EMITTER_DIRECTIONAL, NEARLIGHT_EMITTER_TRIANGLE, NEARLIGHT_EMITTER_SUN,
                             NEARLIGHT_EMITTER_ENVIRONMENT}) {
         const auto found = std::ranges::find(table.emitters, type, &Emitter::type);

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
+#include <span>
 
 #include "host/base/random.h"
 #include "host/scene/emitters.h"
@@ -32,7 +36,7 @@ Scene many_lamps(std::size_t count, const std::function<Vec3(std::size_t)>& posi
 }
 
 /// Expects all triangles of the light within the node's box, and their normals within its cone.
-void expect_inside(const Scene& scene, const Emitter& emitter, const LightNode& node) {
+void expect_triangles_inside(const Scene& scene, const Emitter& emitter, const LightNode& node) {
     for (uint i = 0; i < emitter.triangle_count; ++i) {
         const Triangle& triangle = scene.triangles[emitter.triangle + i];
         const Vec3 v0 = scene.vertices[triangle.v0].position;
@@ -47,35 +51,73 @@ void expect_inside(const Scene& scene, const Emitter& emitter, const LightNode& 
     }
 }
 
+/// Expects the lamp without a surface in the node's box, and all of its beam within the cone.
+void expect_beam_inside(const Emitter& emitter, const LightNode& node) {
+    ASSERT_EQ(min(emitter.position, node.low), node.low);
+    ASSERT_EQ(max(emitter.position, node.high), node.high);
+    const double spread = std::acos(std::clamp(node.cos_spread, -1.0f, 1.0f));
+    if (emitter.type == NEARLIGHT_EMITTER_POINT) {
+        ASSERT_NEAR(spread, std::numbers::pi, 1e-3);
+    } else {
+        const double off_axis = std::acos(std::clamp(dot(emitter.direction, node.axis), -1.0f, 1.0f));
+        ASSERT_LE(off_axis, spread + 1e-3);
+        ASSERT_LE(node.cos_beam, std::cos(emitter.cutoff_angle) + 1e-6);
+    }
+}
+
+/// The share of a light's power that the tree counts.
+double part_in_tree(const Emitter& emitter) {
+    switch (emitter.type) {
+        case NEARLIGHT_EMITTER_SPHERE:
+            return 0.25;
+        case NEARLIGHT_EMITTER_CYLINDER:
+            return 1 / std::numbers::pi;
+        default:
+            return 1.0;
+    }
+}
+
 /// Walks down to every leaf by the way that its emitter has, and checks the bounds on the way.
 void expect_good_tree(const Scene& scene) {
     const EmitterTable table = build_emitter_table(scene);
-    ASSERT_EQ(table.light_tree.size(), 2 * table.emitters.size() - 1);
-    for (uint index = 0; index < table.emitters.size(); ++index) {
+    const auto in_tree =
+        std::span(table.emitters).subspan(table.tree_first, table.tree_end - table.tree_first);
+    ASSERT_FALSE(in_tree.empty());
+    for (uint index = table.tree_first; index < table.tree_end; ++index) {
         const Emitter& emitter = table.emitters[index];
         uint way = emitter.tree_way;
         std::size_t node = 0;
-        int depth = 0;
+        uint depth = 0;
         for (;; ++depth) {
             const LightNode& at = table.light_tree[node];
-            expect_inside(scene, emitter, at);
-            if (at.second_child == 0) {
+            if (is_delta_light(emitter)) {
+                expect_beam_inside(emitter, at);
+            } else {
+                expect_triangles_inside(scene, emitter, at);
+            }
+            if (at.child_count == 0) {
                 break;
             }
-            ASSERT_NEAR(at.power, table.light_tree[node + 1].power + table.light_tree[at.second_child].power,
-                        1e-4f * at.power);
-            node = (way & 1u) != 0 ? at.second_child : node + 1;
-            way >>= 1;
+            ASSERT_LE(at.child_count, NEARLIGHT_LIGHT_TREE_WIDTH);
+            const auto children = std::span(table.light_tree).subspan(at.first_child, at.child_count);
+            double power = 0;
+            for (const LightNode& child : children) {
+                power += child.power;
+            }
+            ASSERT_NEAR(at.power, power, 1e-4 * power);
+            const uint next = way % NEARLIGHT_LIGHT_TREE_WIDTH;
+            ASSERT_LT(next, at.child_count);
+            node = at.first_child + next;
+            way /= NEARLIGHT_LIGHT_TREE_WIDTH;
         }
         ASSERT_LE(depth, NEARLIGHT_MAX_LIGHT_TREE_DEPTH);
         ASSERT_EQ(table.light_tree[node].emitter, index);
     }
     double power = 0;
-    for (const Emitter& emitter : table.emitters) {
-        const double part = emitter.type == NEARLIGHT_EMITTER_SPHERE     ? 0.25
-                            : emitter.type == NEARLIGHT_EMITTER_CYLINDER ? 1 / std::numbers::pi
-                                                                         : 1.0;
-        power += part * emitter.probability * table.total_power;
+    for (const Emitter& emitter : in_tree) {
+        power += is_delta_light(emitter)
+                     ? std::numbers::pi * luminance(emitter.radiance)
+                     : part_in_tree(emitter) * std::numbers::pi * emitter.area * luminance(emitter.radiance);
     }
     EXPECT_NEAR(table.light_tree[0].power, power, 1e-4 * power);
 }
@@ -90,7 +132,7 @@ TEST(LightTree, EveryLightIsFoundWithinItsBounds) {
     expect_good_tree(many_lamps(9, [](std::size_t i) { return Vec3{static_cast<float>(i), 0, 0}; }));
 }
 
-/// Lights at distances that double have a tree of one light a level, until there are no bits left.
+/// Lights at distances that double would have a tree of seven lights a level, far deeper than it may be.
 TEST(LightTree, NoTreeIsDeeperThanAWayCanTell) {
     expect_good_tree(many_lamps(400, [](std::size_t i) {
         return Vec3{std::exp2(static_cast<float>(i) / 4.0f - 20.0f), 0, 0};
@@ -109,13 +151,47 @@ TEST(LightTree, RoundLightsAreLeavesBesideTriangles) {
     expect_good_tree(scene);
 }
 
-TEST(LightTree, AFewLightsHaveNone) {
+TEST(LightTree, OneLightHasNone) {
     const auto tree_of = [](std::size_t count) {
         return build_emitter_table(many_lamps(count, [](std::size_t) { return Vec3{0, 0, 0}; })).light_tree;
     };
     EXPECT_TRUE(tree_of(0).empty());
-    EXPECT_TRUE(tree_of(kMinTreeLights - 1).empty());
-    EXPECT_FALSE(tree_of(kMinTreeLights).empty());
+    EXPECT_TRUE(tree_of(1).empty());
+    EXPECT_EQ(tree_of(2).size(), 3u);
+}
+
+/// Points, spots and directional lights by turns, and two area lights.
+Scene lamps_without_surface(std::size_t count) {
+    Scene scene = many_lamps(2, [](std::size_t i) { return Vec3{static_cast<float>(i), 5, 0}; });
+    for (std::size_t i = 0; i < count; ++i) {
+        Emitter emitter{};
+        emitter.type =
+            std::array{NEARLIGHT_EMITTER_POINT, NEARLIGHT_EMITTER_SPOT, NEARLIGHT_EMITTER_DIRECTIONAL}[i % 3];
+        emitter.position = {static_cast<float>(i % 7), static_cast<float>(i % 5), 1};
+        emitter.direction = normalize(Vec3{static_cast<float>(i % 4), 1, 2});
+        emitter.radiance = {1, 2, static_cast<float>(i)};
+        emitter.beam_angle = 0.2f;
+        emitter.cutoff_angle = 0.5f;
+        scene.delta_emitters.push_back(emitter);
+    }
+    return scene;
+}
+
+/// Lamps without a surface are all summed where they are few, and have a place in the tree where they are
+/// many. Directional lights have none.
+TEST(LightTree, ManyPointsAndSpotsBelongToIt) {
+    const EmitterTable few = build_emitter_table(lamps_without_surface(NEARLIGHT_MAX_EXACT_LIGHTS));
+    EXPECT_EQ(few.tree_first, NEARLIGHT_MAX_EXACT_LIGHTS);
+    EXPECT_EQ(few.tree_end, NEARLIGHT_MAX_EXACT_LIGHTS + 2);
+
+    const Scene scene = lamps_without_surface(300);
+    const EmitterTable many = build_emitter_table(scene);
+    EXPECT_EQ(many.tree_first, 100u);
+    EXPECT_EQ(many.tree_end, 302u);
+    for (uint i = 0; i < many.tree_first; ++i) {
+        EXPECT_EQ(many.emitters[i].type, NEARLIGHT_EMITTER_DIRECTIONAL);
+    }
+    expect_good_tree(scene);
 }
 
 }  // namespace

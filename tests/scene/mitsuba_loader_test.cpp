@@ -36,6 +36,8 @@ TEST(MitsubaValues, ColoursAndSpectra) {
     expect_near(base("<rgb name='reflectance' value='0.25'/>"), {0.25f, 0.25f, 0.25f});
     expect_near(base("<rgb name='reflectance' value='#ff8000'/>"), {1, 0.21586f, 0});
     expect_near(base("<spectrum name='reflectance' value='0.25'/>"), {0.25f, 0.25f, 0.25f});
+    expect_near(base("<spectrum name='reflectance' value='0.1 0.2 0.3'/>"), {0.1f, 0.2f, 0.3f});
+    expect_near(base("<spectrum name='reflectance' value='0.1, 0.2, 0.3'/>"), {0.1f, 0.2f, 0.3f});
     expect_near(base("<spectrum name='reflectance' value='400:0.1, 500:0.2, 600:0.8, 700:0.9'/>"),
                 {0.9587f, 0.4464f, 0.1057f}, 0.05f);
     const Scene scene =

@@ -23,12 +23,13 @@ using test::SceneOnDevice;
 
 class LightSamplingTest : public test::DeviceTest {};
 
-/// Takes samples at the receiver, and asks for the density of the direction of each by tracing it. `out` gets
-/// (density of the sample, density by light_pdf, radiance found ÷ radiance of the sample, 1 if visible).
+/// Takes samples at the receiver, which has a lobe of the roughness viewer.w if that is not 0, and asks for
+/// the density of the direction of each by tracing it. `out` gets (density of the sample, density by
+/// light_pdf, radiance found ÷ radiance of the sample, 1 if visible).
 constexpr const char* kSampleProbe = R"(
 #include "lib/light/sample.cl"
 #include "lib/random.cl"
-kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, global float4* out) {
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewer, uint count, global float4* out) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {
         return;
@@ -36,20 +37,24 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, 
     const SceneView scene = SCENE_VIEW;
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
-    const LightSample light = sample_light(&scene, x, n, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
+    LightReceiver at = even_receiver(x, n);
+    at.viewer = viewer.xyz;
+    at.alpha = viewer.w;
+    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    const LightSample light = sample_light(&scene, &at, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
     const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
     const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
                                       : emitted_radiance(&scene, &hit);
-    out[i] = (float4)(light.pdf, light_pdf(&scene, x, n, light.direction, &hit), found.y / light_radiance(&scene, &light).y,
+    out[i] = (float4)(light.pdf, light_pdf(&scene, &at, light.direction, &hit), found.y / light_radiance(&scene, &light).y,
                       may_shine(&light) ? (float)light_is_visible(&scene, x, &light) : 0.0f);
 }
 )";
 
-/// Density by light_pdf of directions that are uniform over the sphere.
+/// Density by light_pdf of directions that are uniform over the sphere, for such a receiver.
 constexpr const char* kDensityProbe = R"(
 #include "lib/light/sample.cl"
 #include "lib/random.cl"
-kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, global float* out) {
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewer, uint count, global float* out) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {
         return;
@@ -57,7 +62,11 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint count, 
     const SceneView scene = SCENE_VIEW;
     const float3 direction = square_to_cone(sample_2d(i, 0, 9), -1.0f);
     const SurfaceHit hit = trace_surface(&scene, position.xyz, direction, INFINITY);
-    out[i] = light_pdf(&scene, position.xyz, normal.xyz, direction, &hit);
+    LightReceiver at = even_receiver(position.xyz, normal.xyz);
+    at.viewer = viewer.xyz;
+    at.alpha = viewer.w;
+    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    out[i] = light_pdf(&scene, &at, direction, &hit);
 }
 )";
 
@@ -74,6 +83,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
     const ReceiverPoint at = {x, n, (float3)(0.0f), 0};
+    const LightReceiver receiver = even_receiver(x, n);
     float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, 0, 0, 0, i);
     for (uint ray = 0; ray < rays; ++ray) {
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
@@ -81,7 +91,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
         const float3 found = hit.t < 0.0f ? environment_radiance(&scene, direction)
                                           : emitted_radiance(&scene, &hit);
         const float own = (float)rays * dot(n, direction) * M_1_PI_F;
-        const float other = (float)light_samples * light_pdf(&scene, x, n, direction, &hit);
+        const float other = (float)light_samples * light_pdf(&scene, &receiver, direction, &hit);
         sum += found * (M_PI_F / (float)rays * own / (own + other));
     }
     out[i] = (float4)(sum, 0.0f);
@@ -161,13 +171,14 @@ Scene hall_of_lamps() {
 /// The same scene on the device without its tree of lights.
 void leave_out_tree(SceneOnDevice& scene) {
     SceneInfo info = scene.buffers.host_info;
-    info.light_node_count = 0;
+    info.tree_end = info.tree_first;
     scene.buffers.info.upload(std::span(&info, 1));
 }
 
 using Float4 = std::array<float, 4>;
 constexpr Float4 kOrigin{0, 0, 0, 0};
 constexpr Float4 kUp{0, 0, 1, 0};
+constexpr Float4 kNoLobe{0, 0, 1, 0};
 
 TEST_F(LightSamplingTest, SamplesOfTheSunAreEvenOverItsDisc) {
     constexpr uint kCount = 4096;
@@ -205,7 +216,7 @@ TEST_F(LightSamplingTest, SamplesHaveTheDensityThatRaysAreTold) {
             KernelProbe probe(device, kSampleProbe);
             const SceneOnDevice lamps(probe.device(), lamps_and_sky(sky));
             Buffer<Float4> out(probe.device(), kCount);
-            probe.kernel().launch(kCount, 8, lamps.buffers, kOrigin, kUp, kCount, out);
+            probe.kernel().launch(kCount, 8, lamps.buffers, kOrigin, kUp, kNoLobe, kCount, out);
             uint visible = 0;
             uint different = 0;
             // Between pixels of few and of much light, rounding of the direction shows in the radiance.
@@ -230,14 +241,14 @@ TEST_F(LightSamplingTest, DensitiesIntegrateToTheShareOfSamplesThatAreOfUse) {
             const Scene scene = lamps_and_sky(sky);
             Buffer<float> density(densities.device(), kCount);
             densities.kernel().launch(kCount, 8, SceneOnDevice(densities.device(), scene).buffers, kOrigin,
-                                      kUp, kCount, density);
+                                      kUp, kNoLobe, kCount, density);
             double integral = 0;
             for (const float value : density.download()) {
                 integral += 4 * double(kPi) * value / kCount;
             }
             Buffer<Float4> out(samples.device(), kCount);
             samples.kernel().launch(kCount, 8, SceneOnDevice(samples.device(), scene).buffers, kOrigin, kUp,
-                                    kCount, out);
+                                    kNoLobe, kCount, out);
             double visible = 0;
             for (const Float4& sample : out.download()) {
                 visible += sample[3] / kCount;
@@ -248,17 +259,22 @@ TEST_F(LightSamplingTest, DensitiesIntegrateToTheShareOfSamplesThatAreOfUse) {
 }
 
 TEST_F(LightSamplingTest, DensitiesOfTheLightTreeIntegrateToItsShareOfUse) {
-    constexpr uint kCount = 1u << 18;
+    constexpr uint kCount = 1u << 19;
     on_each_device([&](Device& device) {
         KernelProbe densities(device, kDensityProbe);
         KernelProbe samples(device, kSampleProbe);
         const SceneOnDevice hall(densities.device(), hall_of_lamps());
         const SceneOnDevice same_hall(samples.device(), hall_of_lamps());
-        ASSERT_GT(hall.buffers.host_info.light_node_count, 0u);
-        for (const Float4& normal : {kUp, Float4{0, 0, 0, 0}, Float4{0.8f, 0, -0.6f, 0}}) {
+        ASSERT_GT(hall.buffers.host_info.tree_end, 0u);
+        struct Receiver {
+            Float4 normal, viewer;
+        };
+        for (const auto& [normal, viewer] :
+             {Receiver{kUp, kNoLobe}, Receiver{{0, 0, 0, 0}, kNoLobe}, Receiver{{0.8f, 0, -0.6f, 0}, kNoLobe},
+              Receiver{kUp, {-0.6f, 0, 0.8f, 0.3f}}, Receiver{kUp, {0.98f, 0, 0.199f, 0.6f}}}) {
             const Float4 place{3.1f, 0.4f, 2.5f, 0};
             Buffer<float> density(densities.device(), kCount);
-            densities.kernel().launch(kCount, 8, hall.buffers, place, normal, kCount, density);
+            densities.kernel().launch(kCount, 8, hall.buffers, place, normal, viewer, kCount, density);
             double integral = 0;
             double squares = 0;
             for (const float value : density.download()) {
@@ -268,7 +284,7 @@ TEST_F(LightSamplingTest, DensitiesOfTheLightTreeIntegrateToItsShareOfUse) {
             }
             const double deviation = std::sqrt((squares - integral * integral) / kCount);
             Buffer<Float4> out(samples.device(), kCount);
-            samples.kernel().launch(kCount, 8, same_hall.buffers, place, normal, kCount, out);
+            samples.kernel().launch(kCount, 8, same_hall.buffers, place, normal, viewer, kCount, out);
             double visible = 0;
             uint different = 0;
             for (const auto& [pdf, asked, ratio, is_visible] : out.download()) {
@@ -310,6 +326,52 @@ TEST_F(LightSamplingTest, LightTreeHasTheSameMeanAndLessVariance) {
                 EXPECT_NEAR(mean, power_mean, 5 * std::sqrt((variance + power_variance) / kCount));
                 EXPECT_LT(10 * variance, power_variance);
             }
+        }
+    });
+}
+
+/// One-sample estimates of what a narrow lobe reflects of the lamps, if the choice knows of it or not.
+constexpr const char* kLobeProbe = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewer, uint count, global float* out) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    LightReceiver at = even_receiver(position.xyz, normal.xyz);
+    at.viewer = viewer.xyz;
+    at.alpha = viewer.w;
+    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    const LightSample light = sample_light(&scene, &at, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
+    const float3 half_vector = normalize(viewer.xyz + light.direction);
+    const float lobe = light.pdf > 0.0f ? pow(fmax(dot(half_vector, normal.xyz), 0.0f), 400.0f) : 0.0f;
+    out[i] = lobe > 0.0f ? lobe * light.radiance.y / light.pdf : 0.0f;
+}
+)";
+
+TEST_F(LightSamplingTest, AChoiceThatKnowsOfALobeHasTheSameMeanAndLessVariance) {
+    constexpr uint kCount = 1u << 16;
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, kLobeProbe);
+        const SceneOnDevice hall(probe.device(), hall_of_lamps());
+        Buffer<float> out(probe.device(), kCount);
+        const auto moments = [&](const Float4& viewer) {
+            probe.kernel().launch(kCount, 8, hall.buffers, Float4{0.3f, 0.2f, 0.01f, 0}, kUp, viewer, kCount,
+                                  out);
+            double sum = 0;
+            double squares = 0;
+            for (const float estimate : out.download()) {
+                sum += estimate / kCount;
+                squares += double(estimate) * estimate / kCount;
+            }
+            return std::pair{sum, squares - sum * sum};
+        };
+        for (const Float4& viewer : {Float4{0, 0.6f, 0.8f, 0}, Float4{0.8f, 0, 0.6f, 0}}) {
+            Float4 with_lobe = viewer;
+            with_lobe[3] = 0.1f;
+            const auto [mean, variance] = moments(with_lobe);
+            const auto [even_mean, even_variance] = moments(viewer);
+            EXPECT_NEAR(mean, even_mean, 5 * std::sqrt((variance + even_variance) / kCount));
+            EXPECT_LT(3 * variance, even_variance);
         }
     });
 }

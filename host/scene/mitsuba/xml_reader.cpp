@@ -198,7 +198,8 @@ class Reader {
         }
         const std::string text = element.required("value");
         // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB.
-        if (text.find(':') == std::string::npos && text.find_first_of(",#") != std::string::npos) {
+        const bool is_curve = text.find(':') != std::string::npos;
+        if (!is_curve && (split_words(text).size() > 1 || text.find('#') != std::string::npos)) {
             return parse_rgb(text, element.where);
         }
         return parse_spectrum(text, element.where);

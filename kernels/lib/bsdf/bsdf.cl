@@ -31,6 +31,17 @@ static inline bool is_delta_only(const Bsdf* bsdf) {
     }
 }
 
+/// The roughness α of the lobe by which S reflects, the larger one where it is anisotropic; 0: there is none
+/// to evaluate.
+static inline float lobe_roughness(const Bsdf* bsdf) {
+    if (is_delta_only(bsdf)) {
+        return 0.0f;
+    }
+    const float2 alpha = bsdf->model == NEARLIGHT_BSDF_PRINCIPLED ? principled_facets(bsdf, 1.0f).alpha
+                                                                  : microfacets_of(bsdf).alpha;
+    return fmax(alpha.x, alpha.y);
+}
+
 static inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) {
     *pdf = 0.0f;
     if (!(wo.z > 0.0f) || wi.z == 0.0f || is_delta_only(bsdf)) {

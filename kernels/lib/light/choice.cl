@@ -5,14 +5,10 @@
 
 #include "lib/light/tree.cl"
 
-/// Up to this many delta lights are all summed. If there are more, they are chosen by chance like the other
-/// lights.
-#define MAX_EXACT_LIGHTS 16u
-
 /// How many delta lights, the first ones of the table, are few enough to be summed all.
 static inline uint exact_light_count(const SceneView* scene) {
     const uint count = scene->info->delta_emitter_count;
-    return count <= MAX_EXACT_LIGHTS ? count : 0;
+    return count <= NEARLIGHT_MAX_EXACT_LIGHTS ? count : 0;
 }
 
 /// The first emitter of the table with u < cdf, or the last one if rounding leaves u above all entries.
@@ -47,32 +43,32 @@ static inline bool is_area_light(const global Emitter* emitter) {
            emitter->type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
-/// The part of the distribution that belongs to area lights.
-static inline CdfRange area_light_share(const SceneView* scene) {
-    const uint delta_count = scene->info->delta_emitter_count;
-    uint end = scene->info->emitter_count;
-    while (end > delta_count && !is_area_light(scene->emitters + end - 1)) {
-        --end;  // the environment and its sun
-    }
+static inline bool has_light_tree(const SceneView* scene) {
+    return scene->info->tree_first < scene->info->tree_end;
+}
+
+/// The part of the distribution that belongs to the lights of the tree.
+static inline CdfRange tree_share(const SceneView* scene) {
+    const uint first = scene->info->tree_first;
     CdfRange share;
-    share.low = delta_count == 0 ? 0.0f : scene->emitters[delta_count - 1].cdf;
-    share.high = end == 0 ? 0.0f : scene->emitters[end - 1].cdf;
+    share.low = first == 0 ? 0.0f : scene->emitters[first - 1].cdf;
+    share.high = scene->emitters[scene->info->tree_end - 1].cdf;
     return share;
 }
 
-/// Chooses among the lights that are not summed exactly, for a receiver at x with the normal n (zero: light
-/// counts from all sides); there must be a light. All area lights together have the part of their kind, and
-/// the tree of lights chooses among them where there is one. `probability` gets that of the choice. Returns
-/// ~0u if the choice brings nothing.
-static inline uint choose_light(const SceneView* scene, float3 x, float3 n, float u, float* probability) {
+/// Chooses among the lights that are not summed exactly; there must be one. The lights of the tree together
+/// have the part of their kinds, and the tree chooses among them. `probability` gets that of the choice.
+/// Returns ~0u if the choice brings nothing.
+static inline uint choose_light(const SceneView* scene, const LightReceiver* at, float u,
+                                float* probability) {
     const float low = exact_share(scene);
     const float place = low + u * (1.0f - low);
-    if (scene->info->light_node_count > 0) {
-        const CdfRange share = area_light_share(scene);
+    if (has_light_tree(scene)) {
+        const CdfRange share = tree_share(scene);
         if (place >= share.low && (place < share.high || share.high >= 1.0f)) {
             const float width = share.high - share.low;
             const float within = fmin((place - share.low) / width, 0x1.fffffep-1f);
-            const uint index = choose_in_light_tree(scene, x, n, within, probability);
+            const uint index = choose_in_light_tree(scene, at, within, probability);
             *probability *= width / (1.0f - low);
             return index;
         }
@@ -83,14 +79,14 @@ static inline uint choose_light(const SceneView* scene, float3 x, float3 n, floa
 }
 
 /// The probability with which choose_light() picks this entry of the table.
-static inline float choice_probability(const SceneView* scene, uint index, float3 x, float3 n) {
+static inline float choice_probability(const SceneView* scene, uint index, const LightReceiver* at) {
     if (index < exact_light_count(scene)) {
         return 0.0f;
     }
     const float sampled_share = 1.0f - exact_share(scene);
-    if (scene->info->light_node_count > 0 && is_area_light(scene->emitters + index)) {
-        const CdfRange share = area_light_share(scene);
-        return light_tree_probability(scene, index, x, n) * (share.high - share.low) / sampled_share;
+    if (index >= scene->info->tree_first && index < scene->info->tree_end) {
+        const CdfRange share = tree_share(scene);
+        return light_tree_probability(scene, index, at) * (share.high - share.low) / sampled_share;
     }
     return scene->emitters[index].probability / sampled_share;
 }

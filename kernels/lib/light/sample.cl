@@ -129,58 +129,57 @@ static inline bool has_sampled_lights(const SceneView* scene) {
 
 /// Density with which sample_light() picks a direction in which nothing is met. `map_density` is
 /// MapSample.pdf there.
-static inline float distant_pdf(const SceneView* scene, float3 x, float3 n, float3 direction,
+static inline float distant_pdf(const SceneView* scene, const LightReceiver* at, float3 direction,
                                 float map_density) {
     float pdf = 0.0f;
     for (uint index = scene->info->emitter_count; index > 0 && is_distant(scene->emitters + index - 1);
          --index) {
         const bool is_sun = scene->emitters[index - 1].type == NEARLIGHT_EMITTER_SUN;
-        pdf +=
-            choice_probability(scene, index - 1, x, n) * (is_sun ? sun_pdf(scene, direction) : map_density);
+        pdf += choice_probability(scene, index - 1, at) * (is_sun ? sun_pdf(scene, direction) : map_density);
     }
     return pdf;
 }
 
 /// A sample of the sky: of the map, and of the sun where the direction meets it.
-static inline LightSample sample_of_sky(const SceneView* scene, float3 x, float3 n, const MapSample* map) {
-    LightSample sample = no_light(x);
+static inline LightSample sample_of_sky(const SceneView* scene, const LightReceiver* at,
+                                        const MapSample* map) {
+    LightSample sample = no_light(at->x);
     sample.direction = map->direction;
     sample.radiance = sun_radiance(scene, map->direction);
-    sample.pdf = distant_pdf(scene, x, n, map->direction, map->pdf);
+    sample.pdf = distant_pdf(scene, at, map->direction, map->pdf);
     sample.on_map = has_map(scene);
     sample.place = map->place;
     return sample;
 }
 
-/// Light at x, whose surface has the normal n (zero: light counts from both sides), from one of the lights
-/// that are not summed exactly; there must be one. A sample of no use has a black radiance, and its pdf may
-/// be 0.
-OUTLINED LightSample sample_light(const SceneView* scene, float3 x, float3 n, float2 choice, float2 u) {
+/// Light at the receiver from one of the lights that are not summed exactly; there must be one. A sample of
+/// no use has a black radiance, and its pdf may be 0.
+OUTLINED LightSample sample_light(const SceneView* scene, const LightReceiver* at, float2 choice, float2 u) {
     float probability;
-    const uint index = choose_light(scene, x, n, choice.x, &probability);
+    const uint index = choose_light(scene, at, choice.x, &probability);
     if (index == ~0u) {
-        return no_light(x);
+        return no_light(at->x);
     }
     const global Emitter* emitter = scene->emitters + index;
     if (is_distant(emitter)) {
         const MapSample map =
             emitter->type == NEARLIGHT_EMITTER_SUN ? map_sample_towards_sun(scene, u) : sample_map(scene, u);
-        return sample_of_sky(scene, x, n, &map);
+        return sample_of_sky(scene, at, &map);
     }
-    LightSample sample = sample_emitter(scene, index, x, u);
+    LightSample sample = sample_emitter(scene, index, at->x, u);
     sample.pdf *= probability;
     return sample;
 }
 
-/// The density with which sample_light() at x picks the unit direction in which a ray from x met `hit`, or
-/// nothing (t < 0). It is 0 where sample_light() cannot pick it.
-static inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3 direction,
+/// The density with which sample_light() picks the unit direction in which a ray from the receiver met `hit`,
+/// or nothing (t < 0). It is 0 where sample_light() cannot pick it.
+static inline float light_pdf(const SceneView* scene, const LightReceiver* at, float3 direction,
                               const SurfaceHit* hit) {
     if (scene->info->emitter_count == 0) {
         return 0.0f;
     }
     if (hit->t < 0.0f) {
-        return distant_pdf(scene, x, n, direction, map_sample_towards(scene, direction).pdf);
+        return distant_pdf(scene, at, direction, map_sample_towards(scene, direction).pdf);
     }
     const float cosine = -dot(hit->geometric, direction);
     if (!hit->front || !(cosine > 0.0f) || is_black(load3(scene->materials[hit->material].emission.value))) {
@@ -193,13 +192,13 @@ static inline float light_pdf(const SceneView* scene, float3 x, float3 n, float3
     const global Emitter* emitter = scene->emitters + index;
     float pdf;
     if (emitter->type == NEARLIGHT_EMITTER_SPHERE) {
-        pdf = sphere_pdf(emitter, x, direction);
+        pdf = sphere_pdf(emitter, at->x, direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_CYLINDER) {
-        pdf = cylinder_pdf(emitter, x, direction);
+        pdf = cylinder_pdf(emitter, at->x, direction);
     } else {
-        pdf = triangle_pdf(scene, hit->triangle, x, hit->t, cosine);
+        pdf = triangle_pdf(scene, hit->triangle, at->x, hit->t, cosine);
     }
-    return choice_probability(scene, index, x, n) * pdf;
+    return choice_probability(scene, index, at) * pdf;
 }
 
 static inline bool light_is_visible(const SceneView* scene, float3 x, const LightSample* sample) {
@@ -210,15 +209,15 @@ static inline bool light_is_visible(const SceneView* scene, float3 x, const Ligh
 
 /// A sample for receivers that trace no rays of their own. Where the environment is chosen, half the samples
 /// follow the cosine, half the tables, and `pdf` is the density of the mixture.
-static inline LightSample sample_light_or_cosine(const SceneView* scene, float3 x, float3 n, float2 choice,
-                                                 float2 u) {
+static inline LightSample sample_light_or_cosine(const SceneView* scene, const LightReceiver* at,
+                                                 float2 choice, float2 u) {
     float probability;
-    const uint index = choose_light(scene, x, n, choice.x, &probability);
+    const uint index = choose_light(scene, at, choice.x, &probability);
     if (index == ~0u) {
-        return no_light(x);
+        return no_light(at->x);
     }
     if (!is_distant(scene->emitters + index)) {
-        LightSample light = sample_emitter(scene, index, x, u);
+        LightSample light = sample_emitter(scene, index, at->x, u);
         light.pdf *= probability;
         return light;
     }
@@ -226,12 +225,12 @@ static inline LightSample sample_light_or_cosine(const SceneView* scene, float3 
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
         map = map_sample_towards_sun(scene, u);
     } else if (choice.y < 0.5f) {
-        map = map_sample_towards(scene, to_world_frame(square_to_cosine_hemisphere(u), n));
+        map = map_sample_towards(scene, to_world_frame(square_to_cosine_hemisphere(u), at->n));
     } else {
         map = sample_map(scene, u);
     }
-    map.pdf = 0.5f * (map.pdf + fmax(0.0f, dot(n, map.direction)) * M_1_PI_F);
-    return sample_of_sky(scene, x, n, &map);
+    map.pdf = 0.5f * (map.pdf + fmax(0.0f, dot(at->n, map.direction)) * M_1_PI_F);
+    return sample_of_sky(scene, at, &map);
 }
 
 #endif
