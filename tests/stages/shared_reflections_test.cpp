@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/scene/material_model.h"
 #include "tests/support/brought_light.h"
@@ -118,6 +119,21 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringUpToALimit) {
                   1.1 * brought(device, scene, packets, true, kTwoGlossyRays, 64).variance())
             << "the limit changes nothing";
         expect_what_own_rays_bring(device, scene, GatherKernel::automatic, limited);
+    });
+}
+
+/// Which of two lamps a place on the floor asks must not follow the lobe towards one of the receivers, since
+/// all of them take its light with one density.
+TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfTwoLamps) {
+    on_each_device([](Device& device) {
+        Scene scene;
+        add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, add_material(scene, metal(0.2f)));
+        for (const auto& [x, radiance] : {std::pair{0.8f, 10.0f}, {-1.9f, 60.0f}}) {
+            Material lamp = lambertian({0, 0, 0});
+            lamp.emission = parameter_of(radiance);
+            add_quad(scene, {x, 0.9f * kHeight, 0}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
+        }
+        expect_what_own_rays_bring(device, scene);
     });
 }
 
