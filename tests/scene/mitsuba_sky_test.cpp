@@ -85,6 +85,29 @@ TEST(MitsubaSky, LoadedSunAndMap) {
     expect_near(transform_vector(load("", "sky").to_world, {0, 1, 0}), {0, 1, 0});
 }
 
+/// In files of Mitsuba 0.5 and 0.6, +Y is up for every kind of sky, and a scale of the sun or the sky
+/// replaces the common one.
+TEST(MitsubaSky, OldFilesHaveTheirOwnConventions) {
+    const SceneFiles files;
+    const auto load = [&](const std::string& version, const std::string& type, const std::string& body) {
+        return load_scene(files.write("old.xml", "<scene version='" + version + "'><emitter type='" + type +
+                                                     "'>" + body + "</emitter></scene>"));
+    };
+    const std::string high = "<vector name='sunDirection' x='1' y='2' z='-0.5'/>";
+    const Scene old = load("0.6.0", "sunsky", high + "<float name='scale' value='3'/>");
+    expect_near(old.environment.sun_direction, normalize(Vec3{1, 2, -0.5f}));
+    expect_near(transform_vector(old.environment.to_world, {0, 1, 0}), {0, 1, 0});
+    EXPECT_TRUE(has_note(old, "+Y up"));
+    EXPECT_TRUE(has_note(load("3.0.0", "sunsky", high), "below the horizon"));
+
+    const Scene replaced =
+        load("0.5.0", "sunsky", high + "<float name='scale' value='9'/><float name='sunScale' value='3'/>");
+    expect_ratio(replaced.environment.sun_radiance, old.environment.sun_radiance, 1e-6f);
+    const std::string albedo = "<rgb name='albedo' value='0.2'/>";
+    EXPECT_EQ(load("0.5.0", "sunsky", high).environment.radiance,
+              load("0.5.0", "sunsky", high + albedo).environment.radiance);
+}
+
 TEST(MitsubaSky, NightIsBlackAndBadParametersAreRefused) {
     const SceneFiles files;
     const Scene night =

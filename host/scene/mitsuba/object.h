@@ -54,6 +54,7 @@ struct Object {
     std::string type;  ///< "obj", "diffuse", …
     std::string id;
     Location where;
+    bool is_old = false;                         ///< the file is one of Mitsuba 0.5 or 0.6
     std::map<std::string, Property> properties;  ///< "filename" is the path at which the file was found
     std::vector<Child> children;
 

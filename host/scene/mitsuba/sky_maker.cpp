@@ -53,13 +53,33 @@ Vec3 local_sun_direction(const Object& sky, const Mat4& to_world) {
     return direction;
 }
 
-Vec3 read_albedo(const Object& sky) {
+Vec3 read_albedo(const Object& sky, float fallback) {
     const std::optional<Color> color = sky.color("albedo");
-    const Vec3 albedo = color ? color->reflectance : Vec3{0.3f, 0.3f, 0.3f};
+    const Vec3 albedo = color ? color->reflectance : Vec3{1, 1, 1} * fallback;
     if (!(min(albedo, {0, 0, 0}) == Vec3{0, 0, 0} && max(albedo, {1, 1, 1}) == Vec3{1, 1, 1})) {
         fail(sky.where, "the 'albedo' of a sky should lie between 0 and 1");
     }
     return albedo;
+}
+
+/// What multiplies the light of the sky and that of the sun.
+struct SkyScales {
+    double sky = 0.0, sun = 0.0;
+};
+
+/// Mitsuba 0.5 and 0.6 take `scale` where a part has no scale of its own; Mitsuba 3 multiplies the two.
+SkyScales read_scales(const Object& emitter, bool is_old) {
+    const double scale = emitter.number("scale", 1.0);
+    const auto scale_of = [&](const char* name) {
+        return is_old ? emitter.number(name, scale) : scale * emitter.number(name, 1.0);
+    };
+    SkyScales scales;
+    scales.sky = emitter.type == "sun" ? 0.0 : scale_of("sky_scale");
+    scales.sun = emitter.type == "sky" ? 0.0 : scale_of("sun_scale");
+    if (!(scales.sky >= 0.0 && scales.sun >= 0.0)) {
+        fail(emitter.where, "the scale of a sky should not be negative");
+    }
+    return scales;
 }
 
 /// Half the angle under which the sun is seen, radians.
@@ -81,25 +101,22 @@ bool is_sky(const Object& emitter) {
 }
 
 EnvironmentLight make_sky(const Object& emitter, NoteSink& notes) {
-    const bool is_old = emitter.type != "sunsky";
+    const bool is_old = emitter.is_old || emitter.type != "sunsky";
     const Mat4 to_world = emitter.transform("to_world") * (is_old ? rotation(1, 0, 0, -90) : Mat4{});
     const double turbidity = number_between(emitter, "turbidity", 3.0, 1.0, 10.0);
-    const double scale = emitter.number("scale", 1.0);
-    const double sky_scale = emitter.type == "sun" ? 0.0 : emitter.number("sky_scale", 1.0) * scale;
-    const double sun_scale = emitter.type == "sky" ? 0.0 : emitter.number("sun_scale", 1.0) * scale;
-    if (!(sky_scale >= 0.0 && sun_scale >= 0.0)) {
-        fail(emitter.where, "the scale of a sky should not be negative");
-    }
+    const SkyScales scales = read_scales(emitter, is_old);
     if (emitter.number("stretch", 1.0) != 1.0) {
         fail(emitter.where, "a 'stretch' of the sky is not supported");
     }
     emitter.ignore(
         {"resolution", "sun_radius_scale", "sun_aperture", "complex_sun", "sky_scale", "sun_scale"});
     if (is_old) {
-        note(notes, emitter.where, "'" + emitter.type + "' is rendered by the model of Mitsuba 3's 'sunsky'");
+        note(notes, emitter.where,
+             "'" + emitter.type +
+                 "' of Mitsuba 0.5 is rendered by the model of Mitsuba 3's 'sunsky', with +Y up");
     }
     const Vec3 sun = local_sun_direction(emitter, to_world);
-    const Vec3 albedo = read_albedo(emitter);
+    const Vec3 albedo = read_albedo(emitter, is_old ? 0.2f : 0.3f);
     EnvironmentLight light;
     light.to_world = to_world * sky_map_to_model();
     light.width = light.height = 1;
@@ -108,9 +125,12 @@ EnvironmentLight make_sky(const Object& emitter, NoteSink& notes) {
         note(notes, emitter.where, "the sun is below the horizon, so the sky is black");
         return light;
     }
-    SkyLight sky{
-        .turbidity = turbidity, .albedo = albedo, .sun = sun, .sky_scale = sky_scale, .sun_scale = sun_scale};
-    if (sun_scale > 0.0) {
+    SkyLight sky{.turbidity = turbidity,
+                 .albedo = albedo,
+                 .sun = sun,
+                 .sky_scale = scales.sky,
+                 .sun_scale = scales.sun};
+    if (scales.sun > 0.0) {
         sky.sun_half_angle = read_sun_half_angle(emitter, notes);
     }
     set_sky(light, sky);

@@ -59,6 +59,10 @@ std::string Element::required(const char* attribute) const {
     return text(attribute);
 }
 
+bool Element::is_old() const {
+    return node.root().child("scene").attribute("version").as_int(3) == 0;
+}
+
 double Element::number(const char* attribute, double fallback) const {
     return has(attribute) ? parse_number(text(attribute), where) : fallback;
 }
@@ -123,8 +127,8 @@ Mat4 read_rotation(const Element& element) {
         fail(element.where, "rotate needs an axis that is not zero");
     }
     const double angle = element.number("angle", 0.0);
-    const bool is_old = element.node.root().child("scene").attribute("version").as_int(3) == 0;
-    return is_old ? rotation(axis[0], axis[1], axis[2], angle) : rodrigues(axis[0], axis[1], axis[2], angle);
+    return element.is_old() ? rotation(axis[0], axis[1], axis[2], angle)
+                            : rodrigues(axis[0], axis[1], axis[2], angle);
 }
 
 Mat4 read_operation(const Element& element) {

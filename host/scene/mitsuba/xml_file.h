@@ -50,6 +50,8 @@ struct Element {
     [[nodiscard]] std::string text(const char* attribute) const;
     [[nodiscard]] std::string required(const char* attribute) const;
     [[nodiscard]] double number(const char* attribute, double fallback) const;
+    /// Whether the file is one of Mitsuba 0.5 or 0.6. One that states no version is not.
+    [[nodiscard]] bool is_old() const;
     /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. If `single`, one
     /// number stands for all three.
     [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;

@@ -80,6 +80,7 @@ class Reader {
         }
         object->where = element.where;
         object->id = element.text("id");
+        object->is_old = element.is_old();
         if (object->tag == "texture" && element.node.name() == std::string("blackbody")) {
             read_old_blackbody(element, *object);
         } else {
