@@ -78,7 +78,7 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
     path.sample = sample;
     path.ray = first_ray(start.ray.direction);
     const LightReceiver camera_place = even_receiver(start.ray.origin, start.ray.direction);
-    begin_ray(&path.ray, start.ray.origin, &camera_place, 0.0f);
+    begin_ray(&path.ray, &camera_place, 0.0f);
     path.mode = BSDF_CAMERA;
     path.t_min = start.ray.t_min;
     path.t_max = start.ray.t_max;

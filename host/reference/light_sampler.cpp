@@ -16,9 +16,6 @@
 namespace nearlight::core {
 namespace {
 
-// With more delta lights than this, they are chosen by power like all other lights.
-constexpr uint kMaxExactLights = 16;
-
 /// Density per steradian of a point that is uniform over a triangle, seen under the given cosine.
 double area_density(const Emitter& emitter, double distance, double cosine) {
     return cosine > 0.0 ? distance * distance / (cosine * static_cast<double>(emitter.area)) : 0.0;
@@ -70,7 +67,8 @@ LightSampler::LightSampler(const Scene& scene)
       table_(build_emitter_table(scene)),
       environment_(scene),
       extent_(max_component(bounds(scene).size())) {
-    sampled_first_ = table_.delta_emitter_count <= kMaxExactLights ? table_.delta_emitter_count : 0;
+    sampled_first_ =
+        table_.delta_emitter_count <= NEARLIGHT_MAX_EXACT_LIGHTS ? table_.delta_emitter_count : 0;
     sampled_before_ = sampled_first_ > 0 ? table_.emitters[sampled_first_ - 1].cdf : 0.0;
 }
 

@@ -184,6 +184,11 @@ struct LightRange {
     [[nodiscard]] std::size_t count() const { return end - first; }
 };
 
+/// The most leaves of a tree with so many levels of nodes above them: the width to that power.
+uint most_leaves(uint levels) {
+    return levels == 0 ? 1 : NEARLIGHT_LIGHT_TREE_WIDTH * most_leaves(levels - 1);
+}
+
 LightNode node_of(const LightRange& lights) {
     LightNode node{};
     node.low = lights.bounds.box.min;
@@ -308,9 +313,7 @@ std::size_t LightTreeBuilder::halve(const LightRange& lights) {
 /// Parts the lights until there are as many parts as a node may have, or each is one light. The part that
 /// costs most is parted next, and the largest is halved where the tree would else become too deep.
 std::vector<LightRange> LightTreeBuilder::children_of(const LightRange& lights, uint depth) {
-    const uint levels_left = NEARLIGHT_MAX_LIGHT_TREE_DEPTH - depth - 1;
-    const bool must_halve =
-        static_cast<double>(lights.count()) > std::pow(NEARLIGHT_LIGHT_TREE_WIDTH, levels_left);
+    const bool must_halve = lights.count() > most_leaves(NEARLIGHT_MAX_LIGHT_TREE_DEPTH - depth - 1);
     std::vector<LightRange> parts{lights};
     while (parts.size() < NEARLIGHT_LIGHT_TREE_WIDTH && parts.size() < lights.count()) {
         const auto next = std::ranges::max_element(parts, {}, [&](const LightRange& part) {
@@ -340,12 +343,8 @@ void LightTreeBuilder::add_below(std::size_t node, const LightRange& lights, uin
     for (const LightRange& child : children) {
         nodes_.push_back(node_of(child));
     }
-    uint digit = 1;
-    for (uint level = 0; level < depth; ++level) {
-        digit *= NEARLIGHT_LIGHT_TREE_WIDTH;
-    }
     for (uint i = 0; i < children.size(); ++i) {
-        add_below(first + i, children[i], depth + 1, way + i * digit);
+        add_below(first + i, children[i], depth + 1, way + i * most_leaves(depth));
     }
 }
 

@@ -18,15 +18,10 @@ static inline float bundle_density(float3 normal, float3 direction, float bundle
     return bundle_ratio * fmax(dot(normal, direction), 0.0f) * M_1_PI_F;
 }
 
-/// The given parts of a surface as what asks lights. A tenth of the choice follows irradiance even where
-/// there is a lobe, for S may reflect in other ways besides.
+/// The given parts of a surface as what asks lights for light at x.
 static inline LightReceiver light_receiver(float3 x, const SurfaceBsdf* surface, uint parts) {
-    LightReceiver at = even_receiver(x, surface->frame.n);
-    at.viewer = surface->wo;
-    at.alpha = lobe_roughness(&surface->bsdf);
     const float share = parts == BSDF_S ? 1.0f : parts == BSDF_D ? 0.0f : surface->s_share;
-    at.gloss = at.alpha > 0.0f ? 0.9f * share : 0.0f;
-    return at;
+    return glossy_receiver(x, surface->frame.n, surface->wo, share, lobe_roughness(&surface->bsdf));
 }
 
 /// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
@@ -118,11 +113,10 @@ static inline PathRay first_ray(float3 direction) {
     return ray;
 }
 
-/// Sets where the ray was scattered to where it starts.
-static inline void begin_ray(PathRay* ray, float3 origin, const LightReceiver* from, float pdf) {
-    ray->origin = origin;
+/// Starts the ray where it is scattered.
+static inline void begin_ray(PathRay* ray, const LightReceiver* from, float pdf) {
+    ray->origin = from->x;
     ray->from = *from;
-    ray->from.x = origin;
     ray->pdf = pdf;
     ray->share = 1.0f;
     ray->passed = 0.0f;
@@ -198,8 +192,8 @@ OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit
         ray->passed += hit->t;
         ++ray->veils;
     } else {
-        const LightReceiver from = light_receiver(hit->position, surface, parts);
-        begin_ray(ray, ray_origin(scene, hit, sample.wi), &from, sample.is_delta ? 0.0f : sample.pdf);
+        const LightReceiver from = light_receiver(ray_origin(scene, hit, sample.wi), surface, parts);
+        begin_ray(ray, &from, sample.is_delta ? 0.0f : sample.pdf);
     }
     return !is_black(ray->throughput);
 }

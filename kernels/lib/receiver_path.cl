@@ -56,7 +56,7 @@ static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* 
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
                               receiver_map_factor(at, ray.direction));
     const LightReceiver from = even_receiver(at->x, at->n);
-    begin_ray(&ray, at->x, &from, rays_per_light_sample * cosine * M_1_PI_F);
+    begin_ray(&ray, &from, rays_per_light_sample * cosine * M_1_PI_F);
     return ray;
 }
 

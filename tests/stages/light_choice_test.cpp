@@ -16,14 +16,9 @@
 namespace nearlight::core {
 namespace {
 
+using namespace light_probes;
 using namespace small_scenes;
-using test::Float4;
-using test::kCombinedProbe;
-using test::kDensityProbe;
 using test::KernelProbe;
-using test::kNoLobe;
-using test::kSampleProbe;
-using test::kUp;
 using test::SceneOnDevice;
 
 class LightChoiceTest : public test::DeviceTest {};
@@ -144,10 +139,7 @@ constexpr const char* kLobeProbe = R"(
 kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewer, uint count, global float* out) {
     const uint i = (uint)get_global_id(0);
     const SceneView scene = SCENE_VIEW;
-    LightReceiver at = even_receiver(position.xyz, normal.xyz);
-    at.viewer = viewer.xyz;
-    at.alpha = viewer.w;
-    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    const LightReceiver at = glossy_receiver(position.xyz, normal.xyz, viewer.xyz, 1.0f, viewer.w);
     const LightSample light = sample_light(&scene, &at, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
     const float3 half_vector = normalize(viewer.xyz + light.direction);
     const float lobe = light.pdf > 0.0f ? pow(fmax(dot(half_vector, normal.xyz), 0.0f), 400.0f) : 0.0f;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace nearlight::core::test {
+namespace nearlight::core::light_probes {
 
 using Float4 = std::array<float, 4>;
 inline constexpr Float4 kOrigin{0, 0, 0, 0};
@@ -25,10 +25,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewe
     const SceneView scene = SCENE_VIEW;
     const float3 x = position.xyz;
     const float3 n = normal.xyz;
-    LightReceiver at = even_receiver(x, n);
-    at.viewer = viewer.xyz;
-    at.alpha = viewer.w;
-    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    const LightReceiver at = glossy_receiver(x, n, viewer.xyz, 1.0f, viewer.w);
     const LightSample light = sample_light(&scene, &at, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
     const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
     const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
@@ -50,10 +47,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewe
     const SceneView scene = SCENE_VIEW;
     const float3 direction = square_to_cone(sample_2d(i, 0, 9), -1.0f);
     const SurfaceHit hit = trace_surface(&scene, position.xyz, direction, INFINITY);
-    LightReceiver at = even_receiver(position.xyz, normal.xyz);
-    at.viewer = viewer.xyz;
-    at.alpha = viewer.w;
-    at.gloss = at.alpha > 0.0f ? 0.9f : 0.0f;
+    const LightReceiver at = glossy_receiver(position.xyz, normal.xyz, viewer.xyz, 1.0f, viewer.w);
     out[i] = light_pdf(&scene, &at, direction, &hit);
 }
 )";
@@ -86,4 +80,4 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
 }
 )";
 
-}  // namespace nearlight::core::test
+}  // namespace nearlight::core::light_probes

@@ -17,15 +17,9 @@
 namespace nearlight::core {
 namespace {
 
+using namespace light_probes;
 using namespace small_scenes;
-using test::Float4;
-using test::kCombinedProbe;
-using test::kDensityProbe;
 using test::KernelProbe;
-using test::kNoLobe;
-using test::kOrigin;
-using test::kSampleProbe;
-using test::kUp;
 using test::SceneOnDevice;
 
 class LightSamplingTest : public test::DeviceTest {};

@@ -35,7 +35,7 @@ kernel void probe(SCENE_PARAMETERS, global float* out) {
     const SceneView scene = SCENE_VIEW;
     PathRay ray = first_ray((float3)(0.0f, 0.0f, 1.0f));
     const LightReceiver from = even_receiver((float3)(0.1f, 0.2f, 0.0f), ray.direction);
-    begin_ray(&ray, from.x, &from, 0.0f);
+    begin_ray(&ray, &from, 0.0f);
     for (uint surface = 0; surface < 2; ++surface) {
         const SurfaceHit hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
         const SurfaceBsdf glass = surface_bsdf(&scene, &hit, ray.direction, BSDF_RADIANCE, 0.5f);
@@ -123,7 +123,7 @@ kernel void probe(SCENE_PARAMETERS, float pdf, global float* out) {
     const SceneView scene = SCENE_VIEW;
     PathRay ray = first_ray((float3)(0.0f, 0.0f, 1.0f));
     const LightReceiver from = even_receiver((float3)(0.1001f, 0.2002f, 0.0f), ray.direction);
-    begin_ray(&ray, from.x, &from, pdf);
+    begin_ray(&ray, &from, pdf);
     SurfaceHit hit = trace_surface(&scene, ray.origin, ray.direction, INFINITY);
     while (hit.t > 0.0f && is_black(emitted_radiance(&scene, &hit))) {
         const SurfaceBsdf veil = surface_bsdf(&scene, &hit, ray.direction, BSDF_RADIANCE, 0.5f);

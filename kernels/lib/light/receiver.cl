@@ -24,4 +24,15 @@ static inline LightReceiver even_receiver(float3 x, float3 n) {
     return at;
 }
 
+/// A place of which `share` (from 0 to 1) of the light comes by a lobe of the roughness `alpha` (0: there is
+/// none). A tenth of the choice follows irradiance all the same, since a surface may reflect in other ways
+/// besides.
+static inline LightReceiver glossy_receiver(float3 x, float3 n, float3 viewer, float share, float alpha) {
+    LightReceiver at = even_receiver(x, n);
+    at.viewer = viewer;
+    at.gloss = alpha > 0.0f ? 0.9f * share : 0.0f;
+    at.alpha = alpha;
+    return at;
+}
+
 #endif
