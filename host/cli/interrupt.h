@@ -4,9 +4,9 @@
 
 namespace nearlight::core {
 
-/// After this call a first SIGINT, SIGTERM or SIGHUP only makes interrupted() true; a second one ends the
-/// program. SIGHUP stays ignored if it is. A command that calls this must check interrupted() several times a
-/// second.
+/// After this call a first SIGINT, SIGTERM or SIGHUP only makes interrupted() true. Another one ends the program
+/// if it comes more than 0.3 seconds later. SIGHUP stays ignored if it is. A command that calls this must check
+/// interrupted() several times a second.
 void catch_interrupts();
 /// Whether one of these signals came since catch_interrupts().
 [[nodiscard]] bool interrupted();

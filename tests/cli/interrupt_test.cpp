@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <thread>
 
 namespace nearlight::core {
 namespace {
@@ -18,11 +20,12 @@ namespace {
     std::_Exit(!before && interrupted() ? 7 : 8);
 }
 
-[[noreturn]] void interrupt_twice() {
+[[noreturn]] void interrupt_twice(std::chrono::milliseconds apart) {
     catch_interrupts();
     std::raise(SIGINT);
+    std::this_thread::sleep_for(apart);
     std::raise(SIGINT);
-    std::_Exit(7);
+    std::_Exit(interrupted() ? 7 : 8);
 }
 
 TEST(InterruptDeathTest, FirstSignalIsOnlyNoted) {
@@ -40,8 +43,13 @@ TEST(InterruptDeathTest, ALostTerminalInterruptsUnlessItIsIgnored) {
     EXPECT_EXIT(lose_terminal(SIG_IGN), testing::ExitedWithCode(8), "");  // as nohup does
 }
 
-TEST(InterruptDeathTest, SecondSignalEndsTheProcess) {
-    EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "");
+TEST(InterruptDeathTest, ALaterSecondSignalEndsTheProcess) {
+    EXPECT_EXIT(interrupt_twice(std::chrono::milliseconds(400)), testing::KilledBySignal(SIGINT), "");
+}
+
+// `timeout` signals the program and its group, which is one wish.
+TEST(InterruptDeathTest, SignalsAtOnceAreOne) {
+    EXPECT_EXIT(interrupt_twice(std::chrono::milliseconds(0)), testing::ExitedWithCode(7), "");
 }
 
 }  // namespace
