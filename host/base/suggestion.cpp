@@ -5,6 +5,12 @@
 #include <vector>
 
 namespace nearlight::core {
+namespace {
+
+/// A beginning of a word that is shorter could be anything.
+constexpr std::size_t kMinBeginning = 3;
+
+}  // namespace
 
 // This computes the optimal string alignment distance row by row.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -41,6 +47,11 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
             best_distance = distance;
             best = known;
         }
+    }
+    if (best.empty() && word.size() >= kMinBeginning) {
+        const auto begins = [&](const std::string& known) { return known.starts_with(word); };
+        const auto longer = std::ranges::find_if(words, begins);
+        best = longer == words.end() ? "" : *longer;
     }
     return best;
 }

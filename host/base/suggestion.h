@@ -12,8 +12,8 @@ namespace nearlight::core {
 /// the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `words` nearest to `word`, or an empty string if none is near enough. Of
-/// several, it is one that begins with `word`, or else the first.
+/// The word of `words` nearest to `word`. Of several, it is one that begins with `word`, or else the first.
+/// If none is near enough, it is the first that begins with `word`, or an empty string.
 std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
 }  // namespace nearlight::core

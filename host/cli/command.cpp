@@ -2,6 +2,7 @@
 #include "host/cli/command.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <csignal>
 #include <filesystem>
@@ -40,8 +41,21 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
+/// What other renderers call an option.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOthersNames{
+    {{"--width", "--size"},
+     {"--height", "--size"},
+     {"--resolution", "--size"},
+     {"--samples", "--spp"},
+     {"--bounces", "--max-depth"},
+     {"--envmap", "--environment"},
+     {"--lights", "--vpls"}}};
+
 std::string unknown(const char* kind, const std::string& word, const std::vector<std::string>& words) {
-    const std::string nearest = nearest_word(word, words);
+    const auto* const other =
+        std::ranges::find(kOthersNames, word, [](const auto& names) { return names.first; });
+    const bool is_known = other != kOthersNames.end() && std::ranges::count(words, other->second) > 0;
+    const std::string nearest = is_known ? std::string(other->second) : nearest_word(word, words);
     return std::string("unknown ") + kind + " '" + word + "'" +
            (nearest.empty() ? "" : ", did you mean '" + nearest + "'?");
 }

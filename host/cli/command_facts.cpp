@@ -59,10 +59,10 @@ std::string without_brackets(const std::string& text) {
 /// The choices of an option whose description lists them behind a colon, as in "Gather kernel: packets (for
 /// CPUs), rays (for GPUs) or auto". The parser does not know them, because the error for other words names
 /// them.
-std::vector<std::string> choices_named(const std::string& type, const std::string& description) {
+std::vector<std::string> choices_named(const std::string& value, const std::string& description) {
     std::string list = without_brackets(description);
     const std::size_t colon = list.find(": ");
-    if (type.substr(0, type.find(':')) != "NAME" || colon == std::string::npos) {
+    if (value != "NAME" || colon == std::string::npos) {
         return {};
     }
     list.erase(0, colon + 2);
@@ -99,12 +99,11 @@ OptionFacts option_facts(const CLI::Option& option) {
     facts.is_repeated = option.get_items_expected_max() > 1;
     const bool has_value = facts.is_positional || option.get_items_expected_max() > 0;
     if (has_value) {
-        const std::string type = option.get_type_name();
-        facts.choices = choices_in(type);
+        facts.choices = choices_in(option.get_type_name());
         if (facts.choices.empty()) {
-            facts.choices = choices_named(type, facts.description);
+            facts.choices = choices_named(value_word(option), facts.description);
         }
-        facts.value = facts.is_positional ? facts.names.front() : type.substr(0, type.find(':'));
+        facts.value = facts.is_positional ? facts.names.front() : value_word(option);
         if (facts.choices.empty()) {
             facts.choices = choices_among(facts.value);
         }
@@ -129,6 +128,22 @@ CommandFacts facts_below(const CLI::App& command, const std::string& parents) {
 }
 
 }  // namespace
+
+// The parser's name of a type goes on behind a colon with what the value must be. A colon between brackets
+// belongs to the word.
+std::string value_word(const CLI::Option& option) {
+    if (option.get_type_size() == 0) {
+        return "";
+    }
+    std::string word = option.get_type_name();
+    int depth = 0;
+    const auto ends = [&](char c) {
+        depth += (c == '[') - (c == ']');
+        return c == ':' && depth == 0;
+    };
+    word.erase(std::ranges::find_if(word, ends), word.end());
+    return word;
+}
 
 CommandFacts command_facts(const CLI::App& command) {
     return facts_below(command, "");

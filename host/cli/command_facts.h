@@ -12,7 +12,7 @@ namespace nearlight::core {
 struct OptionFacts {
     /// With their dashes, short ones first; one without dashes if it is positional.
     std::vector<std::string> names{};
-    std::string value{};  ///< what stands for the value, as in "N"; empty for a flag
+    std::string value{};  ///< value_word(), but the name if it is positional
     /// The words that it takes; empty if they cannot be listed. Where it takes_file too, it takes other
     /// words.
     std::vector<std::string> choices{};
@@ -34,6 +34,9 @@ struct CommandFacts {
     std::vector<OptionFacts> options{};
     std::vector<CommandFacts> parts{};  ///< commands that belong to this one; hidden ones are left out
 };
+
+/// What stands for the option's value in --help, as in "N" or "A[:B]"; empty for a flag.
+std::string value_word(const CLI::Option& option);
 
 CommandFacts command_facts(const CLI::App& command);
 

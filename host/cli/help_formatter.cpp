@@ -3,6 +3,8 @@
 
 #include <sstream>
 
+#include "host/cli/command_facts.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -54,10 +56,9 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
 /// The word for the value, and the default. What a value may be is said by the description, or by the error
 /// that a wrong one gives.
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
-    std::string type = option->get_type_size() == 0 ? "" : option->get_type_name();
-    type = type.substr(0, type.find(':'));
+    const std::string value = value_word(*option);
     const std::string fallback = option->get_default_str();
-    return (type.empty() ? "" : " " + type) + (fallback.empty() ? "" : " [" + fallback + "]");
+    return (value.empty() ? "" : " " + value) + (fallback.empty() ? "" : " [" + fallback + "]");
 }
 
 std::string HelpFormatter::make_description(const CLI::App* app) const {

@@ -27,6 +27,9 @@ TEST(Suggestion, NearestWord) {
     const std::vector<std::string> near{"--up", "--spp", "--fps", "--spq"};
     EXPECT_EQ(nearest_word("--sp", near), "--spp");
     EXPECT_EQ(nearest_word("--spx", near), "--spp");
+    const std::vector<std::string> far{"--version", "--environment", "--environment-scale"};
+    EXPECT_EQ(nearest_word("--env", far), "--environment");
+    EXPECT_EQ(nearest_word("-", far), "");
 }
 
 }  // namespace

@@ -70,6 +70,20 @@ TEST(CommandLine, HelpFitsInAHundredColumns) {
     }
 }
 
+TEST(CommandLine, HelpShowsWhatStandsForAValue) {
+    const std::string help = run_program("render --help").output;
+    EXPECT_TRUE(contains(help, "--frames A[:B] "));
+    EXPECT_TRUE(contains(help, "--vpls N [1000] "));
+    EXPECT_TRUE(contains(help, "--denoise   "));
+}
+
+TEST(CommandLine, HelpShowsWhatStandsForAValue) {
+    const std::string help = run_program("render --help").output;
+    EXPECT_TRUE(contains(help, "--frames A[:B] "));
+    EXPECT_TRUE(contains(help, "--vpls N [1000] "));
+    EXPECT_TRUE(contains(help, "--denoise   "));
+}
+
 TEST(CommandLine, WithoutCommandItTellsTheCommands) {
     const ProgramResult result = run_program("");
     EXPECT_EQ(result.exit_code, 2);
@@ -84,6 +98,9 @@ TEST(CommandLine, TyposGetSuggestions) {
     expect_error(run_program("diff a b --lyaer x"), 2,
                  "unknown option '--lyaer', did you mean '--layer'? See 'nearlight diff --help'");
     expect_error(run_program("diff --lyaer=x"), 2, "unknown option '--lyaer', did you mean '--layer'?");
+    expect_error(run_program("render a.xml --width 64"), 2,
+                 "unknown option '--width', did you mean '--size'?");
+    expect_error(run_program("diff a b --width 64"), 2, "unknown option '--width'; see");
     expect_error(run_program("--jsno"), 2, "did you mean '--json'?");
     expect_error(run_program("frobnicate"), 2, "unknown command 'frobnicate'; see 'nearlight --help'");
 }
