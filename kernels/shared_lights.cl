@@ -13,7 +13,8 @@
 // where p is the density of all rays of the bundle together (the balance heuristic over its receivers). No
 // term exceeds π·L_D/m, because the rays of x alone make p ≥ m/π·G·V. A receiver keeps one light of those
 // that its rays find (lib/shared_light.cl), and a bundle uses NEARLIGHT_SHARED_LIGHTS of those that its
-// receivers keep; both are drawn in proportion to what they send, and count 1/probability.
+// receivers keep; both count 1/probability. The draws follow SharedLight.weight, which is the radiance times
+// max(1 − r²/R², 0.05) with the r of the receiver that found the light (lib/receiver_path.cl).
 //
 // - shared_light_choose: one work-item for each bundle lists the lights that it uses.
 // - shared_light_packets, shared_light_rays (files of their own): which receivers see them, and p.

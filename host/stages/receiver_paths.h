@@ -12,8 +12,9 @@
 namespace nearlight::core {
 
 struct ReceiverPathSettings {
-    /// Samples that each receiver takes of area lights and the environment, at least 1. Point and spot lights
-    /// need no samples.
+    /// Samples that each receiver takes of area lights, the sun and the environment, at least 1. Points,
+    /// spots, projectors and directional lights need none, unless there are more than
+    /// NEARLIGHT_MAX_EXACT_LIGHTS of them: then they are sampled too.
     uint light_samples = 1;
     /// Rays of each receiver. With 0, only direct light is found.
     uint path_count = 0;

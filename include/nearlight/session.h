@@ -112,7 +112,7 @@ using RowSink = std::function<void(std::span<const float> rows)>;
 /// camera receives; direct.* and indirect.* are its two parts. The other layers describe what is seen:
 /// albedo.*, the unit normal N.*, the position P.* and the distance depth.Z in metres, and closerange.Y, the
 /// share of the pixel that lies in the close range. variance.* is the estimated variance of R, G and B; it is
-/// 0 if the picture has a single sample per pixel.
+/// 0 if the picture has a single sample per pixel. A is the part of the pixel that surfaces cover.
 NEARLIGHT_API std::vector<std::string> picture_channels();
 
 /// A scene on devices, ready from construction on for any number of views, sets of VPLs and pictures. Equal
@@ -147,7 +147,7 @@ class NEARLIGHT_API Session {
     void save_vpls(const VplSet& vpls, const std::filesystem::path& file);
 
     /// Renders the view with these VPLs, which may have been made for another view of the session. The image
-    /// takes about 90 bytes per pixel, a float for each channel.
+    /// takes 96 bytes per pixel, a float for each channel.
     Picture gather(const View& view, const VplSet& vpls, const GatherSettings& settings = {},
                    std::uint32_t seed = 0, const Progress& progress = {});
 

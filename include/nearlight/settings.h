@@ -132,7 +132,8 @@ struct GatherSettings {
     /// The part of the picture to make; empty: all of it. Its pixels are those of the whole picture, to the
     /// bit.
     std::optional<PixelWindow> window{};
-    /// Samples towards area lights and the environment; empty: 16 to 128, as a pilot chooses.
+    /// Samples towards area lights, the sun and the environment, and towards points, spots, projectors and
+    /// directional lights if there are more than sixteen of these; empty: 16 to 128, as a pilot chooses.
     std::optional<std::uint32_t> direct_samples_per_pixel{};
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
     /// other ways than Lambertian. Without them, the picture lacks that light.

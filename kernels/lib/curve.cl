@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transmission curves: which part of light passes through what lies over the Lambertian part of a surface, by
-// the cosine of its direction. host/scene/material_model.h makes them.
+// the cosine of its direction. host/scene/transmission_curve.h makes them.
 #ifndef NEARLIGHT_LIB_CURVE
 #define NEARLIGHT_LIB_CURVE
 

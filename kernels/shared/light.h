@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a scene: the table of them, the tree over area lights, and the environment.
+// The lights of a scene: the table of them, the tree over lamps, which are area lights, points, spots and
+// projectors, and the environment.
 #ifndef NEARLIGHT_SHARED_LIGHT_H
 #define NEARLIGHT_SHARED_LIGHT_H
 

@@ -2,7 +2,7 @@
 // A BSDF at one point of a surface, and a direction drawn from it.
 //
 // A BSDF is D + S: D is its Lambertian part, S everything else (coat, metal, glass). VPLs stand for D alone
-// (docs/method.md). Files of this folder hold S of one model each, as four functions:
+// (docs/method.md). Files of this folder hold S of one model each, as up to three functions:
 //
 //     float3     MODEL_eval(bsdf, wo, wi, &pdf)
 //         S(wo, wi) · |cosθi| without mirror images and refractions at a smooth surface;
