@@ -2,6 +2,8 @@
 #include "host/scene/mesh.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "nearlight/error.h"
@@ -224,6 +226,28 @@ std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<cons
         normal = normalize(normal);
     }
     return normals;
+}
+
+bool is_closed(const Mesh& mesh, std::optional<uint> group) {
+    std::map<std::tuple<float, float, float>, uint> places;
+    const auto place = [&](uint vertex) {
+        const Vec3 p = mesh.positions[vertex];
+        return places.try_emplace({p.x, p.y, p.z}, static_cast<uint>(places.size())).first->second;
+    };
+    std::map<std::pair<uint, uint>, int> open_edges;  // how much more often one way than the other
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (group && (mesh.groups.empty() ? 0 : mesh.groups[i]) != *group) {
+            continue;
+        }
+        const auto& [a, b, c] = mesh.triangles[i];
+        const std::array corners{place(a), place(b), place(c)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const uint from = corners[k];
+            const uint to = corners[(k + 1) % 3];
+            open_edges[std::minmax(from, to)] += from < to ? 1 : -1;
+        }
+    }
+    return std::ranges::all_of(open_edges, [](const auto& edge) { return edge.second == 0; });
 }
 
 void check_mesh(const Mesh& mesh) {

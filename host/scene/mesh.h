@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +49,10 @@ struct MeshPlacement {
 /// own. Objects that the mesh has begin in the scene. Throws Error(ErrorKind::file) for an index out of
 /// range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
+
+/// Whether the surface, or that of the triangles of a group, has no border, and therefore no back that could
+/// be seen. Corners at the same place count as one.
+bool is_closed(const Mesh& mesh, std::optional<uint> group = {});
 
 /// Throws Error(ErrorKind::file) for an index out of range, and if normals, colours or texture coordinates
 /// are not as many as positions.

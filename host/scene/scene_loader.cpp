@@ -7,7 +7,7 @@
 
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
-#include "host/scene/obj_loader.h"
+#include "host/scene/obj/obj_loader.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/vertex_colors.h"
 #include "nearlight/error.h"

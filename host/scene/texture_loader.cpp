@@ -29,13 +29,34 @@ std::array<float, 3> rgb_at(const Image& image, std::size_t pixel) {
     return channels < 3 ? std::array<float, 3>{p[0], p[0], p[0]} : std::array<float, 3>{p[0], p[1], p[2]};
 }
 
+float channel_at(const Image& image, std::size_t pixel, int channel) {
+    const std::size_t channels = image.channel_count();
+    const float* p = image.values.data() + pixel * channels;
+    if (channel == 3) {
+        return channels == 2 || channels >= 4 ? p[channels == 2 ? 1 : 3] : 1.0f;
+    }
+    return channels < 3 ? p[0] : p[channel];
+}
+
+/// Whether the image has alpha, and not 1 everywhere.
+bool is_transparent(const Image& image) {
+    const std::size_t count = image.values.size() / image.channel_count();
+    for (std::size_t pixel = 0; pixel < count; ++pixel) {
+        if (channel_at(image, pixel, 3) != 1.0f) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Turns the numbers of an image into texels.
 class TexelReader {
   public:
     TexelReader(const Image& image, const TexelRule& rule, bool holds_floats)
         : image_(image),
           rule_(rule),
-          gamma_(rule.channel >= 0 ? 1.0f : (rule.gamma > 0.0f || !holds_floats ? rule.gamma : 1.0f)) {}
+          channel_(rule.prefers_alpha && is_transparent(image) ? 3 : rule.channel),
+          gamma_(channel_ >= 0 ? 1.0f : (rule.gamma > 0.0f || !holds_floats ? rule.gamma : 1.0f)) {}
 
     /// The format that keeps the image's numbers: 8 bits where all of them have that many.
     [[nodiscard]] uint format(bool holds_floats) const {
@@ -48,8 +69,8 @@ class TexelReader {
 
     /// The numbers of the file that make the texel.
     [[nodiscard]] std::array<float, 3> source(std::size_t pixel) const {
-        if (rule_.channel >= 0) {
-            const float number = channel_at(pixel, rule_.channel);
+        if (channel_ >= 0) {
+            const float number = channel_at(image_, pixel, channel_);
             const float kept = rule_.is_inverse ? 1.0f - rule_.factor * number : number;
             return {kept, kept, kept};
         }
@@ -93,17 +114,8 @@ class TexelReader {
                                 : std::pow(std::max(linear, 0.0f), 1.0f / gamma_);
     }
 
-    [[nodiscard]] float channel_at(std::size_t pixel, int channel) const {
-        const std::size_t channels = image_.channel_count();
-        const float* p = image_.values.data() + pixel * channels;
-        if (channel == 3) {
-            return channels == 2 || channels >= 4 ? p[channels == 2 ? 1 : 3] : 1.0f;
-        }
-        return channels < 3 ? p[0] : p[channel];
-    }
-
     [[nodiscard]] float alpha_at(std::size_t pixel) const {
-        const float alpha = channel_at(pixel, 3);
+        const float alpha = channel_at(image_, pixel, 3);
         return rule_.alpha_cutoff > 0.0f ? (alpha >= rule_.alpha_cutoff ? 1.0f : 0.0f) : alpha;
     }
 
@@ -126,6 +138,7 @@ class TexelReader {
 
     const Image& image_;
     const TexelRule& rule_;
+    int channel_;  // −1: all
     float gamma_;  // 0: sRGB
 };
 

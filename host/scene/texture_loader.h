@@ -18,10 +18,11 @@ namespace nearlight::core {
 struct TexelRule {
     /// 0: sRGB-encoded, except in files of floats; otherwise linear = number to the power of gamma.
     float gamma = 0.0f;
-    bool is_number = false;   ///< one number, the luminance of the colour
-    bool is_signed = false;   ///< numbers below 0 mean something
-    int channel = -1;         ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
-    bool is_inverse = false;  ///< of a channel: 1 − factor·number instead of the number
+    bool is_number = false;      ///< one number, the luminance of the colour
+    bool is_signed = false;      ///< numbers below 0 mean something
+    int channel = -1;            ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
+    bool prefers_alpha = false;  ///< alpha alone, of images in which it is not 1 everywhere
+    bool is_inverse = false;     ///< of a channel: 1 − factor·number instead of the number
     float factor = 1.0f;
     /// What x and y of a map of normals are multiplied by, which makes it steeper or turns it over.
     float steepness_x = 1.0f;

@@ -4,10 +4,8 @@
 
 #include "host/base/thread_limit.h"
 #include "host/scene/mesh.h"
-#include "host/scene/obj_loader.h"
-#include "host/scene/obj_text.h"
 #include "host/scene/ply_loader.h"
-#include "tests/scene/scene_files.h"
+#include "tests/scene/obj_text.h"
 
 namespace nearlight::core {
 namespace {
@@ -87,10 +85,6 @@ TEST(Ply, IndicesOutOfRangeAreErrors) {
     }
 }
 
-Scene load_obj(const SceneFiles& files, const std::string& text) {
-    return load_scene(files.write("m.obj", text));
-}
-
 TEST(Obj, NegativeIndicesAndPolygons) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.5 2 0\nv 0 1 0\nf -5 -4 -3 -2 -1\n");
@@ -124,86 +118,6 @@ TEST(Obj, NanVerticesDropTheirTriangles) {
     }
 }
 
-TEST(Obj, MaterialsLightsAndMissingOnes) {
-    const SceneFiles files;
-    files.write(
-        "my lib.mtl",
-        "newmtl red wall\nKd 0.8 0.1 0.1\nillum 1\nnewmtl red roof \nKd 0.2 0 0\nnewmtl lamp\nKd 0 0 0\nKe 5 "
-        "6 7\n"
-        "newmtl paper\nKd 1 1 1\nmap_Kd gone.png\nnewmtl veil\nd 0.1\nnewmtl mirror\nillum 5\nKs 1 1 1\n"
-        "newmtl pane\nillum 4\n");
-    std::string text = "mtllib my lib.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    for (const char* name : {"red wall", "lamp", "paper", "nobody", "veil", "mirror", "red roof", "pane"}) {
-        text += std::string("usemtl ") + name + "\nf 1 2 3\n";
-    }
-    const Scene scene = load_obj(files, text);
-    ASSERT_EQ(scene.triangles.size(), 9u);
-    const auto material = [&](std::size_t i) { return scene.materials[scene.triangles[i].material]; };
-    const auto side = [&](std::size_t i) {
-        EXPECT_EQ(material(i).model, NEARLIGHT_BSDF_TWO_SIDED);
-        EXPECT_EQ(material(i).child[0], material(i).child[1]);
-        return scene.materials[material(i).child[0]];
-    };
-    expect_near(side(0).reflectance.value, {0.5f, 0.5f, 0.5f});
-    expect_near(side(1).reflectance.value, {0.8f, 0.1f, 0.1f});
-    expect_near(material(2).emission.value, {5, 6, 7});
-    expect_near(side(3).reflectance.value, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(material(5).model, NEARLIGHT_BSDF_MASK);
-    EXPECT_FLOAT_EQ(material(5).reflectance.value.x, 0.1f);
-    EXPECT_EQ(scene.materials[material(5).child[0]].model, NEARLIGHT_BSDF_TWO_SIDED);
-    EXPECT_EQ(side(6).model, NEARLIGHT_BSDF_CONDUCTOR);
-    expect_near(side(7).reflectance.value, {0.2f, 0, 0});
-    EXPECT_EQ(material(8).model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
-    EXPECT_TRUE(has_note(scene, "m.obj:2: material library 'missing.mtl'"));
-    EXPECT_TRUE(has_note(scene, "my lib.mtl:11: texture is replaced"));
-    EXPECT_TRUE(has_note(scene, "m.obj:13: material 'nobody'"));
-    EXPECT_TRUE(scene.delta_emitters.empty());
-}
-
-// The material on both sides of the only triangle, with this text as the entry of the library.
-Material only_material(const SceneFiles& files, const std::string& entry, Scene* scene = nullptr) {
-    files.write("m.mtl", "newmtl m\n" + entry);
-    const Scene loaded = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    if (scene != nullptr) {
-        *scene = loaded;
-    }
-    return loaded.materials[loaded.materials[loaded.triangles.at(0).material].child[0]];
-}
-
-TEST(Obj, HighlightsAreRoughPlastic) {
-    const SceneFiles files;
-    const Material plastic = only_material(files, "Kd 0.5 0.4 0.3\nKs 0.2 0.3 0.4\nNs 98\nNi 1.6\nillum 2\n");
-    EXPECT_EQ(plastic.model, NEARLIGHT_BSDF_PLASTIC);
-    expect_near(plastic.reflectance.value, {0.5f, 0.4f, 0.3f});
-    expect_near(plastic.specular.value, {0.2f, 0.3f, 0.4f});
-    EXPECT_NEAR(plastic.roughness.value.x, std::sqrt(2.0 / 100.0), 1e-6);
-    EXPECT_FLOAT_EQ(plastic.eta.x, 1.6f);
-    EXPECT_NE(plastic.flags & NEARLIGHT_MATERIAL_BECKMANN, 0u);
-    EXPECT_FLOAT_EQ(only_material(files, "Ks 0.5 0.5 0.5\nNs 10\nNi 1\n").eta.x, 1.5f);
-    for (const char* matt : {"Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 1\n", "Kd 1 1 1\nKs 0 0 0\nNs 50\nillum 2\n"}) {
-        EXPECT_EQ(only_material(files, matt).model, NEARLIGHT_BSDF_DIFFUSE) << matt;
-    }
-    Scene scene;
-    EXPECT_EQ(only_material(files, "Ks 1 1 1\nNs -5\nmap_Ks gone.png\nmap_Ns gone.png\n", &scene).model,
-              NEARLIGHT_BSDF_PLASTIC);
-    EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is replaced"));
-    EXPECT_TRUE(has_note(scene, "map_Ns"));
-}
-
-TEST(Obj, RoughnessAndMetalnessArePrincipled) {
-    const SceneFiles files;
-    const Material metal =
-        only_material(files, "Kd 0.9 0.6 0.2\nKs 0.5 0.5 0.5\nNs 30\nPr 0.3\nPm 1\nillum 3\n");
-    EXPECT_EQ(metal.model, NEARLIGHT_BSDF_PRINCIPLED);
-    expect_near(metal.reflectance.value, {0.9f, 0.6f, 0.2f});
-    EXPECT_FLOAT_EQ(metal.roughness.value.x, 0.3f);
-    EXPECT_FLOAT_EQ(metal.metallic.value.x, 1.0f);
-    EXPECT_FLOAT_EQ(only_material(files, "Kd 1 1 1\nPr 7\n").roughness.value.x, 1.0f);
-    Scene scene;
-    only_material(files, "Kd 1 1 1\nPm 0.5\nPs 0.3\nPc 0.2\n", &scene);
-    EXPECT_TRUE(has_note(scene, "m.mtl:1: sheen, clear coat"));
-}
-
 TEST(Obj, GetsACameraThatSeesEverythingAndALight) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v -3 0 -1\nv 5 0 2\nv 0 4 0\nf 1 2 3\n");
@@ -229,34 +143,6 @@ TEST(Obj, MissingAndEmptyFiles) {
     for (const char* const text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n"}) {
         EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text); }), "no triangles")) << text;
     }
-}
-
-TEST(Obj, LinesOfWhatIsLeftOut) {
-    const SceneFiles files;
-    files.write("m.mtl", "newmtl a\nKd 1 1 1\nnewmtl b\n\nmap_Kd no.png\nnewmtl c\nmap_Kd no2.png\n");
-    const Scene scene =
-        load_obj(files,
-                 "mtllib m.mtl\nmtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\n"
-                 "f 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\nusemtl d\nf 1/1 2/1 3/1\n");
-    const auto line_of = [&](const std::string& text) {
-        const auto note =
-            std::ranges::find_if(scene.notes, [&](const Note& n) { return mentions(n.text, text); });
-        return note == scene.notes.end() ? -1 : note->line;
-    };
-    EXPECT_EQ(line_of("gone.mtl"), 2);
-    EXPECT_EQ(line_of("'d' is not defined"), 11);
-    EXPECT_EQ(line_of("no.png"), 5);
-}
-
-TEST(Obj, LinesOfABlockThatIsNotThere) {
-    const std::string text = "newmtl a\nillum 2\nnewmtl b\nillum 4\n";
-    const auto line = [&](const TextLine& first, const std::string& value) {
-        return find_in_block(text, first, "newmtl", "illum", value);
-    };
-    const auto blocks = lines_by_value(text, "newmtl");
-    EXPECT_EQ(line(blocks.at("b"), "4"), 4);
-    EXPECT_EQ(line(blocks.at("a"), "4"), 0) << "it is in the next block";
-    EXPECT_EQ(line({}, "2"), 0);
 }
 
 TEST(Mesh, SmoothNormalsAreWeightedByAngle) {

@@ -2,8 +2,6 @@
 #include "host/scene/gltf/meshes.h"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/mesh_pose.h"
@@ -77,25 +75,6 @@ void group_by_side(Mesh& mesh) {
     for (const std::array<uint, 3>& triangle : mesh.triangles) {
         mesh.groups.push_back(is_mirrored(mesh, triangle) ? 1 : 0);
     }
-}
-
-/// Whether the surface has no border, and therefore no back that could be seen. Corners at the same place
-/// count as one.
-bool is_closed(const Mesh& mesh) {
-    std::map<std::tuple<float, float, float>, uint> places;
-    std::vector<uint> place;
-    for (const Vec3 p : mesh.positions) {
-        place.push_back(places.try_emplace({p.x, p.y, p.z}, static_cast<uint>(places.size())).first->second);
-    }
-    std::map<std::pair<uint, uint>, int> open_edges;  // how much more often one way than the other
-    for (const std::array<uint, 3>& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const uint from = place[t[k]];
-            const uint to = place[t[(k + 1) % 3]];
-            open_edges[std::minmax(from, to)] += from < to ? 1 : -1;
-        }
-    }
-    return std::ranges::all_of(open_edges, [](const auto& edge) { return edge.second == 0; });
 }
 
 }  // namespace

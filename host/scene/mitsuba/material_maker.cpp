@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "host/scene/mitsuba/values.h"
 #include "host/scene/reflectance.h"
 #include "host/scene/scene_names.h"
 

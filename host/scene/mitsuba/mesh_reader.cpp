@@ -8,7 +8,7 @@
 #include "host/base/thread_limit.h"
 #include "host/scene/mitsuba/mesh_attribute.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
-#include "host/scene/obj_loader.h"
+#include "host/scene/obj/obj_file.h"
 #include "host/scene/ply_loader.h"
 
 namespace nearlight::core::mitsuba {
@@ -48,7 +48,7 @@ MeshFile read_source(const MeshSource& source) {
     }
     MeshFile file;
     if (source.type == "obj") {
-        ObjFile obj = read_obj(source.file);
+        ObjFile obj = read_obj(source.file, ObjUse::mitsuba_shape);
         file = {.mesh = std::move(obj.mesh), .short_faces = obj.short_faces};
     } else {
         file.mesh = read_serialized(source.file, source.index);

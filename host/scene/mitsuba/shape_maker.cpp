@@ -3,7 +3,7 @@
 
 #include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/shape_mesh.h"
-#include "host/scene/obj_loader.h"
+#include "host/scene/obj/obj_file.h"
 #include "host/scene/scene_names.h"
 #include "nearlight/error.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/scene/obj_loader.h"
+#include "host/scene/obj/obj_file.h"
 
 namespace nearlight::core {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/obj_loader.h"
+#include "host/scene/obj/obj_file.h"
 
 #include <tiny_obj_loader.h>
 
@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "host/base/words.h"
-#include "host/scene/default_view.h"
+#include "host/scene/crease_normals.h"
 #include "host/scene/file_text.h"
-#include "host/scene/named_choice.h"
-#include "host/scene/obj_materials.h"
-#include "host/scene/obj_text.h"
+#include "host/scene/obj/obj_extras.h"
+#include "host/scene/obj/obj_text.h"
+#include "host/scene/polygon.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -38,7 +38,13 @@ int line_of_face(std::string_view text, std::size_t face) {
 // Takes tinyobjloader's callbacks and makes one vertex of each distinct (position, texture, normal) triple.
 class ObjBuilder {
   public:
-    explicit ObjBuilder(ObjFile& obj) : obj_(obj) { use_material(""); }
+    ObjBuilder(ObjFile& obj, ObjUse use) : obj_(obj), use_(use) {
+        use_material("");
+        if (use == ObjUse::scene) {
+            colors_ = vertex_colors(obj.text);
+            smoothing_runs_ = smoothing_runs(obj.text);
+        }
+    }
 
     void add_face(const tinyobj::index_t* corners, int count) {
         if (count < 3) {
@@ -49,13 +55,16 @@ class ObjBuilder {
         if (next_object_) {
             add_object(*std::exchange(next_object_, std::nullopt));
         }
-        const uint first = vertex(corners[0]);
-        uint previous = vertex(corners[1]);
-        for (int i = 2; i < count; ++i) {
-            const uint next = vertex(corners[i]);
-            obj_.mesh.triangles.push_back({first, previous, next});
-            obj_.mesh.groups.push_back(group_);
-            previous = next;
+        face_.clear();
+        for (const tinyobj::index_t& corner : std::span(corners, static_cast<std::size_t>(count))) {
+            face_.push_back(vertex(corner));
+        }
+        if (use_ == ObjUse::scene && count > 3) {
+            add_polygon();
+        } else {
+            for (std::size_t i = 2; i < face_.size(); ++i) {
+                add_triangle(face_[0], face_[i - 1], face_[i]);
+            }
         }
         ++faces_;
     }
@@ -69,11 +78,14 @@ class ObjBuilder {
     /// Faces from now on belong to this object.
     void begin_object(std::string name) { next_object_ = std::move(name); }
     void finish() {
+        if (!any_uv_) {
+            obj_.mesh.uvs.clear();
+        }
         if (!any_normal_) {
             obj_.mesh.normals.clear();
         }
-        if (!any_uv_) {
-            obj_.mesh.uvs.clear();
+        if (!any_normal_ && use_ == ObjUse::scene) {
+            add_crease_normals(obj_.mesh, places_, smoothing_);
         }
     }
 
@@ -81,6 +93,35 @@ class ObjBuilder {
     std::vector<std::array<float, 2>> uvs;
 
   private:
+    void add_triangle(uint a, uint b, uint c) {
+        obj_.mesh.triangles.push_back({a, b, c});
+        obj_.mesh.groups.push_back(group_);
+        if (use_ == ObjUse::scene) {
+            smoothing_.push_back(smoothing_group());
+        }
+    }
+    void add_polygon() {
+        polygon_.clear();
+        for (const uint vertex : face_) {
+            polygon_.push_back(obj_.mesh.positions[vertex]);
+        }
+        if (polygon_.size() > kMaxEarCorners && !is_convex(polygon_)) {
+            ++obj_.crooked_faces;
+        }
+        for (const auto& [a, b, c] : triangulate(polygon_)) {
+            add_triangle(face_[a], face_[b], face_[c]);
+        }
+    }
+    /// The group of the current face: none before the first `s` line of a file that has such lines.
+    uint smoothing_group() {
+        while (next_run_ < smoothing_runs_.size() && smoothing_runs_[next_run_].first_face <= faces_) {
+            ++next_run_;
+        }
+        return smoothing_runs_.empty() ? kSmoothByAngle
+               : next_run_ == 0        ? kFlat
+                                       : smoothing_runs_[next_run_ - 1].group;
+    }
+
     /// Adds an object that has faces. Names come back in files that switch between objects.
     void add_object(const std::string& name) {
         Mesh& mesh = obj_.mesh;
@@ -136,12 +177,26 @@ class ObjBuilder {
         obj_.mesh.positions.push_back(positions[p]);
         obj_.mesh.uvs.push_back(t == kNone ? std::array<float, 2>{0, 0} : uvs[t]);
         obj_.mesh.normals.push_back(n == kNone ? Vec3{0, 0, 0} : normals[n]);
+        if (!colors_.empty()) {
+            obj_.mesh.colors.push_back(colors_[p]);
+        }
+        if (use_ == ObjUse::scene) {
+            places_.push_back(p);
+        }
         any_uv_ = any_uv_ || t != kNone;
         any_normal_ = any_normal_ || n != kNone;
         return made;
     }
 
     ObjFile& obj_;
+    ObjUse use_;
+    std::vector<Vec3> colors_;  // of positions
+    std::vector<SmoothingRun> smoothing_runs_;
+    std::size_t next_run_ = 0;
+    std::vector<uint> places_;     // of the mesh's vertices: the file's positions
+    std::vector<uint> smoothing_;  // of triangles: groups
+    std::vector<uint> face_;       // the vertices of the current face
+    std::vector<Vec3> polygon_;    // and where they are
     std::unordered_map<std::string, uint> object_numbers_;
     std::optional<std::string> next_object_;                // that faces have yet to begin
     std::unordered_map<Corner, uint, CornerHash> corners_;  // their vertices
@@ -180,14 +235,15 @@ tinyobj::callback_t make_callbacks() {
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& file, bool keep_text) {
+ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
+    join_continued_lines(obj.text);
     for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
         obj.libraries.emplace(line.number, name);
     }
-    ObjBuilder builder(obj);
+    ObjBuilder builder(obj, use);
     TextBuffer buffer(obj.text);
     std::istream stream(&buffer);
     std::string warning;
@@ -199,7 +255,7 @@ ObjFile read_obj(const std::filesystem::path& file, bool keep_text) {
     if (obj.mesh.triangles.empty()) {
         throw Error(ErrorKind::file, file.string() + ": has no triangles");
     }
-    if (!keep_text) {
+    if (use != ObjUse::scene) {
         obj.text = {};
     }
     return obj;
@@ -211,26 +267,6 @@ void note_short_faces(const Mesh& mesh, std::size_t short_faces, NoteSink& notes
             mesh.source, 0,
             std::to_string(short_faces) + " faces with fewer than three corners are left out");
     }
-}
-
-Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    Scene scene;
-    scene.source = file;
-    scene.name = file.stem().string();
-    NoteSink notes(scene.notes, options.strict);
-    {
-        const ObjFile obj = read_obj(file, true);
-        note_short_faces(obj.mesh, obj.short_faces, notes);
-        const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
-        append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
-    }
-    choose_named(file, "camera", {}, options.camera);
-    add_default_camera(scene, notes);
-    if (!options.overrides.bring_light()) {
-        add_default_light(scene, true, notes);
-    }
-    scene.has_open_exposure = true;
-    return scene;
 }
 
 }  // namespace nearlight::core

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Normals for meshes of files that have none.
+#pragma once
+
+#include <span>
+
+#include "host/scene/mesh.h"
+
+namespace nearlight::core {
+
+/// Groups of triangles for smoothing that have a meaning of their own.
+inline constexpr uint kFlat = 0;
+inline constexpr uint kSmoothByAngle = ~0u;
+
+/// Triangles of kSmoothByAngle that meet at a greater angle than this, in degrees, have a crease between
+/// them: facets of round things meet at less, walls and floors at more.
+inline constexpr float kCreaseDegrees = 40.0f;
+
+/// Gives a mesh without normals some: triangles of the same group that share an edge are smooth across it,
+/// weighted by their angles as in smooth_normals(), and a vertex becomes several where others meet. Vertices
+/// of kFlat get the normal (0, 0, 0), which stands for that of the triangle. `places` has one number for each
+/// vertex: vertices with the same one are at the same place, whatever their texture coordinates are. `groups`
+/// has one for each triangle.
+void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups);
+
+}  // namespace nearlight::core

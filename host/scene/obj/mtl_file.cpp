@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj/mtl_file.h"
+
+#include <istream>
+#include <optional>
+
+#include "host/base/words.h"
+#include "host/scene/file_text.h"
+#include "host/scene/obj/obj_extras.h"
+#include "nearlight/error.h"
+
+namespace nearlight::core {
+namespace {
+
+// Some releases of tinyobjloader cut the names of materials at the first blank, so they are read from the
+// text.
+void restore_names(MaterialLibrary& library) {
+    std::vector<std::string> names;
+    for_each_line(library.text, [&](int, std::string_view line) {
+        if (starts_with_word(line, "newmtl")) {
+            const std::string name = value_after(line, "newmtl");
+            if (!name.empty()) {
+                names.push_back(name);
+            }
+        }
+        return true;
+    });
+    if (names.size() != library.materials.size()) {
+        return;
+    }
+    library.names.clear();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        library.names.emplace(names[i], static_cast<int>(i));
+        library.materials[i].name = names[i];
+    }
+}
+
+/// Empty if the file cannot be read.
+std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
+    MaterialLibrary library;
+    library.file = file;
+    try {
+        library.text = read_file_text(file);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+    library.is_blenders = library.text.starts_with("# Blender");
+    join_continued_lines(library.text);
+    TextBuffer buffer(library.text);
+    std::istream stream(&buffer);
+    std::string warning;
+    std::string error;
+    tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
+    restore_names(library);
+    library.lines = lines_by_value(library.text, "newmtl");
+    return library;
+}
+
+}  // namespace
+
+std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
+    std::vector<MaterialLibrary> libraries;
+    const auto read = [&](const std::string& name) {
+        std::optional<MaterialLibrary> library = read_library(resolve_path(obj.mesh.source, name));
+        if (library) {
+            libraries.push_back(std::move(*library));
+        }
+        return library.has_value();
+    };
+    const auto note = [&](int line, const std::string& name) {
+        notes.approximation(obj.mesh.source, line,
+                            "material library '" + name + "' cannot be read; its materials are grey");
+    };
+    for (const auto& [line, names] : obj.libraries) {
+        if (read(names)) {
+            continue;
+        }
+        const std::size_t before = libraries.size();
+        std::vector<std::string> missing;
+        for (const std::string& name : split(names, ' ')) {
+            if (!name.empty() && !read(name)) {
+                missing.push_back(name);
+            }
+        }
+        if (libraries.size() == before) {
+            note(line, names);
+            continue;
+        }
+        for (const std::string& name : missing) {
+            note(line, name);
+        }
+    }
+    return libraries;
+}
+
+}  // namespace nearlight::core

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the material libraries of OBJ files (MTL).
+#pragma once
+
+#include <tiny_obj_loader.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "host/scene/note_sink.h"
+#include "host/scene/obj/obj_file.h"
+#include "host/scene/obj/obj_text.h"
+
+namespace nearlight::core {
+
+/// A material library, with its text for line numbers.
+struct MaterialLibrary {
+    std::filesystem::path file;
+    std::string text;
+    std::unordered_map<std::string, TextLine> lines;  ///< where materials begin
+    std::map<std::string, int> names;                 ///< indices into `materials`
+    std::vector<tinyobj::material_t> materials;
+    /// Blender's exporter gives Ns, Ka and Ks meanings of their own.
+    bool is_blenders = false;
+};
+
+/// The libraries that the file names and that can be read; notes tell the others. A line may name one
+/// library, whose name may hold blanks, or several.
+std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes);
+
+}  // namespace nearlight::core

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What OBJ files say beyond tinyobjloader's callbacks.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/base/math.h"
+
+namespace nearlight::core {
+
+/// Joins lines that end with a backslash with the next ones. Later lines keep their numbers.
+void join_continued_lines(std::string& text);
+
+/// Faces from `first_face` on, counted from 0, belong to this group of `s` lines; 0 is none.
+struct SmoothingRun {
+    std::size_t first_face;
+    uint group;
+};
+/// The groups of a file in its order; empty if it has no `s` line.
+std::vector<SmoothingRun> smoothing_runs(std::string_view text);
+
+/// The colours that follow the coordinates of vertices, as in `v x y z r g b`, from sRGB, in which programs
+/// write them, to linear. Empty unless all vertices have one.
+std::vector<Vec3> vertex_colors(std::string_view text);
+
+}  // namespace nearlight::core

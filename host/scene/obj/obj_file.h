@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The geometry of Wavefront OBJ files, through tinyobjloader, which only this folder knows.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/scene/mesh.h"
+#include "host/scene/note_sink.h"
+
+namespace nearlight::core {
+
+/// What a file is read as.
+enum class ObjUse {
+    /// Polygons may have any shape, smoothing groups and colours of vertices count, and the text is kept.
+    /// Meshes of
+    /// which no face has a normal are smooth as the smoothing groups say, or where faces meet at a small
+    /// angle if the
+    /// file has no such groups (add_crease_normals()).
+    scene,
+    /// As Mitsuba reads a file of a shape: polygons are fans; smoothing groups and colours do not count.
+    mitsuba_shape,
+};
+
+struct ObjFile {
+    Mesh mesh;                           ///< its groups are indices into `materials`
+    std::vector<std::string> materials;  ///< names after `usemtl`; the first is "", for faces before any
+    /// What follows `mtllib`, each once, by its line.
+    std::map<int, std::string> libraries;
+    std::string text;             ///< of a scene, to find lines in, with continued lines joined
+    std::size_t short_faces = 0;  ///< faces of fewer than three corners, which were left out
+    std::size_t crooked_faces =
+        0;  ///< faces with so many corners that they became fans though they are not convex
+};
+
+/// Reads the geometry; negative indices count back. Throws Error(ErrorKind::file) with file and line for an
+/// index out of range, and for a file without a triangle. Files may be read by several threads at once.
+ObjFile read_obj(const std::filesystem::path& file, ObjUse use);
+
+/// Notes that faces of the mesh's file were left out, if any were.
+void note_short_faces(const Mesh& mesh, std::size_t short_faces, NoteSink& notes);
+
+}  // namespace nearlight::core

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj/obj_loader.h"
+
+#include "host/scene/default_view.h"
+#include "host/scene/mesh.h"
+#include "host/scene/named_choice.h"
+#include "host/scene/note_sink.h"
+#include "host/scene/obj/obj_file.h"
+#include "host/scene/obj/obj_materials.h"
+#include "host/scene/polygon.h"
+
+namespace nearlight::core {
+
+Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    Scene scene;
+    scene.source = file;
+    scene.name = file.stem().string();
+    NoteSink notes(scene.notes, options.strict);
+    {
+        const ObjFile obj = read_obj(file, ObjUse::scene);
+        note_short_faces(obj.mesh, obj.short_faces, notes);
+        if (obj.crooked_faces > 0) {
+            notes.approximation(
+                file, 0,
+                std::to_string(obj.crooked_faces) + " faces with more than " +
+                    std::to_string(kMaxEarCorners) +
+                    " corners that are not convex are divided as if they were; divide them before");
+        }
+        const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
+        append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
+    }
+    choose_named(file, "camera", {}, options.camera);
+    add_default_camera(scene, notes);
+    if (!options.overrides.bring_light()) {
+        add_default_light(scene, true, notes);
+    }
+    scene.has_open_exposure = true;
+    return scene;
+}
+
+}  // namespace nearlight::core

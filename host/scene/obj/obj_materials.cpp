@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj/obj_materials.h"
+
+#include <cmath>
+#include <map>
+
+#include "host/scene/file_text.h"
+#include "host/scene/material_model.h"
+#include "host/scene/obj/mtl_file.h"
+#include "host/scene/scene_names.h"
+#include "host/scene/texture.h"
+#include "host/scene/texture_loader.h"
+
+namespace nearlight::core {
+namespace {
+
+Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
+    return {c[0], c[1], c[2]};
+}
+
+Vec3 clamped(Vec3 c) {
+    return min(max(c, {0, 0, 0}), {1, 1, 1});
+}
+
+// Whether the entry has the extension for physically based rendering.
+bool is_physically_based(const tinyobj::material_t& source) {
+    return source.roughness > 0 || source.metallic > 0 || !source.roughness_texname.empty() ||
+           !source.metallic_texname.empty();
+}
+
+// The illumination model 1 has no highlights, whatever Ks says.
+bool has_highlight(const tinyobj::material_t& source) {
+    return source.illum != 1 && !is_zero(clamped(to_vec3(source.specular)));
+}
+
+// The microfacets of Beckmann's distribution that are as rough as a highlight with the exponent Ns [Walter et
+// al., Microfacet Models for Refraction through Rough Surfaces, 2007].
+double alpha_of_exponent(double exponent) {
+    return std::sqrt(2.0 / (std::min(std::max(0.0, exponent), 1e6) + 2.0));
+}
+
+// The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
+double index_of(const tinyobj::material_t& source) {
+    return source.ior > 1.001f ? static_cast<double>(source.ior) : kUsualIndex;
+}
+
+// A material library's entry, and where notes of it point.
+struct MaterialSource {
+    const MaterialLibrary& library;
+    const tinyobj::material_t& entry;
+    TextLine begin;
+    const Mesh& mesh;  // the file's, and the group of the triangles that have the material
+    uint group;
+};
+
+/// A texture of an entry: the file's name, its options, and the word before them.
+struct TextureSource {
+    const std::string& name;
+    const tinyobj::texture_option_t& options;
+    const char* keyword;
+};
+
+/// Without its extension for physically based rendering, Blender writes the metalness as Ka.
+bool is_blenders_metal(const MaterialSource& source) {
+    return source.library.is_blenders && (source.entry.illum == 3 || source.entry.illum == 6);
+}
+
+bool is_glass(const MaterialSource& source) {
+    const int model = source.entry.illum;
+    return model == 4 || model == 7 || (model == 6 && !source.library.is_blenders);
+}
+
+bool is_mirror(const MaterialSource& source) {
+    return (source.entry.illum == 3 && !source.library.is_blenders) || source.entry.illum == 5;
+}
+
+/// The inverse of Blender's Ns = 1000·(1 − roughness)².
+float blenders_roughness(float exponent) {
+    return 1.0f - std::sqrt(std::clamp(exponent, 0.0f, 1000.0f) / 1000.0f);
+}
+
+/// Whether the texture of a bump map is a map of normals, as which Blender and others write them: its mean
+/// points out of the surface.
+bool is_map_of_normals(Vec3 mean) {
+    const auto is_middle = [](float value) { return std::abs(value - 0.5f) < 0.15f; };
+    return is_middle(mean.x) && is_middle(mean.y) && mean.z > 0.7f;
+}
+
+class ObjMaterials {
+  public:
+    /// With colours of vertices, these multiply Kd.
+    ObjMaterials(Scene& scene, NoteSink& notes, bool has_colors)
+        : scene_(scene), notes_(notes), textures_(scene, notes), has_colors_(has_colors) {}
+
+    // The index of the material.
+    uint add(const MaterialSource& source) {
+        warn_of_what_is_left_out(source);
+        uint made = is_glass(source) ? add_glass(source) : add_opaque(source);
+        if (!is_glass(source)) {
+            made = add_normal_map(source, made);
+            made = add_mask(source, made);
+        }
+        scene_.materials[made].emission = emission(source);
+        return made;
+    }
+
+    /// With colours of vertices, the material is what they say.
+    uint add_grey() {
+        Material grey = diffuse_material({0.5f, 0.5f, 0.5f});
+        if (has_colors_) {
+            grey.reflectance = times_vertex_color(parameter_of(1.0f));
+        }
+        return add_two_sided(scene_, grey);
+    }
+
+  private:
+    void approximate(const MaterialSource& source, const std::string& what) {
+        notes_.approximation(source.library.file, source.begin.number, what);
+    }
+
+    void warn_of_what_is_left_out(const MaterialSource& source) {
+        if (!source.entry.displacement_texname.empty()) {
+            approximate(source, "displacement maps of OBJ materials are left out");
+        }
+        if (source.entry.sheen > 0 || source.entry.clearcoat_thickness > 0 || source.entry.anisotropy > 0) {
+            approximate(source,
+                        "sheen, clear coat and anisotropy (Ps, Pc, aniso) of OBJ materials are left out");
+        }
+        if (has_highlight(source.entry) && !source.entry.specular_highlight_texname.empty()) {
+            approximate(source, "textures of the exponent (map_Ns) of OBJ materials are left out");
+        }
+    }
+
+    uint add(const Material& material) {
+        scene_.materials.push_back(material);
+        return static_cast<uint>(scene_.materials.size() - 1);
+    }
+
+    uint add_opaque(const MaterialSource& source) {
+        if (is_physically_based(source.entry)) {
+            return add_two_sided(scene_, principled(source));
+        }
+        if (is_mirror(source)) {
+            return add_mirror(source);
+        }
+        if (is_blenders_metal(source) || (source.library.is_blenders && has_highlight(source.entry))) {
+            return add_two_sided(scene_, blenders_principled(source));
+        }
+        return add_two_sided(scene_, has_highlight(source.entry) ? plastic(source) : diffuse(source));
+    }
+
+    /// A body where the model refracts and the surface has no border, otherwise a pane. Tf is what passes;
+    /// files that say 0 or nothing mean clear glass.
+    uint add_glass(const MaterialSource& source) {
+        const bool is_body = source.entry.illum != 4 && is_closed(source.mesh, source.group);
+        const double index = index_of(source.entry);
+        Material glass = is_body ? dielectric_material(index) : thin_dielectric_material(index);
+        const Vec3 given = clamped(to_vec3(source.entry.transmittance));
+        const Vec3 tint = is_zero(given) ? Vec3{1, 1, 1} : given;
+        // Light that goes through a body passes its surface twice.
+        glass.transmission =
+            parameter_of(is_body ? Vec3{std::sqrt(tint.x), std::sqrt(tint.y), std::sqrt(tint.z)} : tint);
+        if (!is_body) {
+            approximate(source, "a transparent material is rendered as a thin pane of glass");
+        }
+        return add(glass);
+    }
+
+    /// Mirrors Ks of the light, and scatters Kd, as illum 3 says.
+    uint add_mirror(const MaterialSource& source) {
+        if (source.entry.illum == 5) {
+            approximate(source, "a reflecting material (illum 5) mirrors the same at all angles");
+        }
+        const Vec3 mirrored = clamped(to_vec3(source.entry.specular));
+        const float weight = max_component(mirrored);
+        Material base = diffuse(source);
+        const bool has_base = !is_zero(base.reflectance.value);
+        if (weight <= 0.0f) {
+            return add_two_sided(scene_, base);
+        }
+        if (weight >= 1.0f || !has_base) {
+            return add_two_sided(scene_, conductor_material({0, 0, 0}, {1, 1, 1}, mirrored));
+        }
+        const Vec3 scattered = base.reflectance.value / (1.0f - weight);
+        if (!(clamped(scattered) == scattered)) {
+            approximate(source, "Kd and Ks reflect more than all light together; Kd is reduced");
+        }
+        base.reflectance.value = clamped(scattered);
+        const uint first = add_two_sided(scene_, base);
+        const uint second =
+            add_two_sided(scene_, conductor_material({0, 0, 0}, {1, 1, 1}, mirrored / weight));
+        return add(blend_material(parameter_of(weight), first, second));
+    }
+
+    // The number, times a texture if the file names one.
+    Parameter number_of(const MaterialSource& source, float number, const TextureSource& texture) {
+        Parameter parameter = parameter_of(std::clamp(number, 0.0f, 1.0f));
+        parameter.texture = load(source, texture, {.gamma = 1.0f, .is_number = true});
+        if (parameter.texture >= 0 && number <= 0.0f) {
+            parameter.value = {1, 1, 1};
+        }
+        return parameter;
+    }
+
+    Material principled(const MaterialSource& source) {
+        const tinyobj::material_t& entry = source.entry;
+        Material material = principled_material(scene_, index_of(entry));
+        material.reflectance = diffuse(source).reflectance;
+        material.roughness =
+            number_of(source, entry.roughness, {entry.roughness_texname, entry.roughness_texopt, "map_Pr"});
+        material.metallic =
+            number_of(source, entry.metallic, {entry.metallic_texname, entry.metallic_texopt, "map_Pm"});
+        return material;
+    }
+
+    /// What Blender's exporter writes of its principled material in the words of an older model.
+    Material blenders_principled(const MaterialSource& source) {
+        Material material = principled_material(scene_, index_of(source.entry));
+        material.reflectance = diffuse(source).reflectance;
+        material.roughness = parameter_of(blenders_roughness(source.entry.shininess));
+        material.metallic =
+            parameter_of(is_blenders_metal(source) ? std::clamp(source.entry.ambient[0], 0.0f, 1.0f) : 0.0f);
+        return material;
+    }
+
+    // A base of Kd under a rough coat, whose reflections Ks tints.
+    Material plastic(const MaterialSource& source) {
+        const Coat coat{.eta = index_of(source.entry),
+                        .alpha = alpha_of_exponent(static_cast<double>(source.entry.shininess)),
+                        .beckmann = true};
+        const auto [known, is_new] = coats_.try_emplace(coat);
+        if (is_new) {
+            known->second = plastic_material(scene_, coat);
+        }
+        Material material = known->second;
+        material.reflectance = diffuse(source).reflectance;
+        material.specular = parameter_of(clamped(to_vec3(source.entry.specular)));
+        material.specular.texture =
+            load(source, {source.entry.specular_texname, source.entry.specular_texopt, "map_Ks"}, {});
+        return material;
+    }
+
+    Material diffuse(const MaterialSource& source) {
+        const Vec3 given = to_vec3(source.entry.diffuse);
+        Material material = diffuse_material(clamped(given));
+        if (!(clamped(given) == given)) {
+            approximate(source, "a diffuse reflectance (Kd) lies outside 0 to 1 and is limited");
+        }
+        if (!source.entry.diffuse_texname.empty()) {
+            const int texture =
+                load(source, {source.entry.diffuse_texname, source.entry.diffuse_texopt, "map_Kd"}, {});
+            if (texture < 0) {
+                material = diffuse_material({0.5f, 0.5f, 0.5f});
+            } else {
+                material.reflectance.texture = texture;
+                // Many exporters leave Kd black beside a texture, which then alone gives the colour.
+                if (is_zero(material.reflectance.value)) {
+                    material.reflectance.value = {1, 1, 1};
+                }
+            }
+        }
+        if (has_colors_) {
+            material.reflectance = times_vertex_color(material.reflectance);
+        }
+        return material;
+    }
+
+    Parameter times_vertex_color(Parameter color) {
+        if (color.texture >= 0) {
+            scene_.textures[static_cast<std::size_t>(color.texture)].parameters.flags |=
+                NEARLIGHT_TEXTURE_TIMES_COLOR;
+            return color;
+        }
+        if (vertex_color_ < 0) {
+            SceneTexture texture = plain_texture(-1);
+            texture.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
+            vertex_color_ = add_texture(scene_, texture);
+        }
+        return {color.value, vertex_color_};
+    }
+
+    Parameter emission(const MaterialSource& source) {
+        const tinyobj::material_t& entry = source.entry;
+        Parameter emission = parameter_of(max(to_vec3(entry.emission), {0, 0, 0}));
+        emission.texture = load(source, {entry.emissive_texname, entry.emissive_texopt, "map_Ke"}, {});
+        if (emission.texture >= 0 && is_zero(emission.value)) {
+            emission.value = {1, 1, 1};
+        }
+        return emission;
+    }
+
+    uint add_normal_map(const MaterialSource& source, uint child) {
+        const tinyobj::material_t& entry = source.entry;
+        const TexelRule rule{.gamma = 1.0f};
+        if (!entry.normal_texname.empty()) {
+            const int map = load(source, {entry.normal_texname, entry.normal_texopt, "norm"}, rule);
+            return map < 0 ? child : add(normal_map_material(textured(map), child));
+        }
+        if (entry.bump_texname.empty()) {
+            return child;
+        }
+        const int map = load(source, {entry.bump_texname, entry.bump_texopt, "map_Bump"}, rule);
+        if (map >= 0 && is_map_of_normals(mean_value(scene_, textured(map)))) {
+            return add(normal_map_material(textured(map), child));
+        }
+        if (map >= 0) {
+            approximate(source,
+                        "bump maps of OBJ materials are left out, because their heights have no unit");
+        }
+        return child;
+    }
+
+    // Dissolves the material by `d` and `map_d`.
+    uint add_mask(const MaterialSource& source, uint material) {
+        const float d = source.entry.dissolve;
+        Parameter opacity = parameter_of(std::clamp(d, 0.0f, 1.0f));
+        if (!(d >= 0.0f && d <= 1.0f)) {
+            approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
+        }
+        opacity.texture = load(source, {source.entry.alpha_texname, source.entry.alpha_texopt, "map_d"},
+                               {.gamma = 1.0f, .is_number = true, .prefers_alpha = true});
+        if (opacity.value.x == 1.0f && opacity.texture < 0) {
+            return material;
+        }
+        return add(mask_material(opacity, material));
+    }
+
+    /// The texture, or −1 if the entry names none or its image cannot be read, which a note tells.
+    int load(const MaterialSource& source, const TextureSource& texture, TexelRule rule) {
+        if (texture.name.empty()) {
+            return -1;
+        }
+        const tinyobj::texture_option_t& options = texture.options;
+        if (const std::size_t channel = std::string_view("rgb").find(options.imfchan);
+            rule.is_number && channel != std::string_view::npos) {
+            rule.channel = static_cast<int>(channel);
+            rule.prefers_alpha = false;
+        }
+        const int found =
+            find_in_block(source.library.text, source.begin, "newmtl", texture.keyword, texture.name);
+        const int line = found > 0 ? found : source.begin.number;
+        const int image =
+            textures_.load(resolve_path(source.library.file, texture.name), rule, source.library.file, line);
+        if (image < 0) {
+            return -1;
+        }
+        if (options.contrast != 1.0f || options.brightness != 0.0f || options.turbulence[0] != 0.0f ||
+            options.turbulence[1] != 0.0f) {
+            notes_.approximation(source.library.file, line, "-mm and -t of textures are left out");
+        }
+        SceneTexture placed = plain_texture(image);
+        placed.parameters.u_scale = options.scale[0];
+        placed.parameters.v_scale = options.scale[1];
+        placed.parameters.u_offset = options.origin_offset[0];
+        placed.parameters.v_offset = options.origin_offset[1];
+        if (options.clamp) {
+            placed.parameters.wrap_s = placed.parameters.wrap_t = NEARLIGHT_WRAP_CLAMP;
+        }
+        return add_texture(scene_, placed);
+    }
+
+    Scene& scene_;
+    NoteSink& notes_;
+    TextureLoader textures_;
+    std::map<Coat, Material> coats_;
+    bool has_colors_;
+    int vertex_color_ = -1;  // the texture that stands for colours of vertices
+};
+
+TextLine line_of(const std::unordered_map<std::string, TextLine>& lines, const std::string& value) {
+    const auto found = lines.find(value);
+    return found == lines.end() ? TextLine{} : found->second;
+}
+
+}  // namespace
+
+std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
+    const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
+    ObjMaterials materials(scene, notes, !obj.mesh.colors.empty());
+    const auto uses = lines_by_value(obj.text, "usemtl");
+    std::vector<uint> indices;
+    for (const std::string& name : obj.materials) {
+        const MaterialLibrary* found = nullptr;
+        for (const MaterialLibrary& library : libraries) {
+            found = found == nullptr && library.names.contains(name) ? &library : found;
+        }
+        if (found == nullptr && !name.empty()) {
+            notes.approximation(obj.mesh.source, line_of(uses, name).number,
+                                "material '" + name + "' is not defined; it is grey");
+        }
+        if (found == nullptr) {
+            indices.push_back(materials.add_grey());
+        } else {
+            const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
+            const auto group = static_cast<uint>(indices.size());
+            indices.push_back(
+                materials.add({*found, entry, line_of(found->lines, entry.name), obj.mesh, group}));
+        }
+        name_material(scene, indices.back(), name);
+    }
+    return indices;
+}
+
+}  // namespace nearlight::core

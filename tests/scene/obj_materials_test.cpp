@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of OBJ scenes.
+#include <cmath>
+
+#include "host/image/image.h"
+#include "host/image/image_io.h"
+#include "host/scene/obj/obj_text.h"
+#include "host/scene/texture.h"
+#include "tests/scene/obj_text.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace test;
+
+TEST(Obj, MaterialsLightsAndMissingOnes) {
+    const SceneFiles files;
+    files.write(
+        "my lib.mtl",
+        "newmtl red wall\nKd 0.8 0.1 0.1\nillum 1\nnewmtl red roof \nKd 0.2 0 0\nnewmtl lamp\nKd 0 0 0\nKe 5 "
+        "6 7\n"
+        "newmtl paper\nKd 1 1 1\nmap_Kd gone.png\nnewmtl veil\nd 0.1\nnewmtl mirror\nillum 5\nKs 1 1 1\n"
+        "newmtl pane\nillum 4\n");
+    std::string text = "mtllib my lib.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const char* name : {"red wall", "lamp", "paper", "nobody", "veil", "mirror", "red roof", "pane"}) {
+        text += std::string("usemtl ") + name + "\nf 1 2 3\n";
+    }
+    const Scene scene = load_obj(files, text);
+    ASSERT_EQ(scene.triangles.size(), 9u);
+    const auto material = [&](std::size_t i) { return scene.materials[scene.triangles[i].material]; };
+    const auto side = [&](std::size_t i) {
+        EXPECT_EQ(material(i).model, NEARLIGHT_BSDF_TWO_SIDED);
+        EXPECT_EQ(material(i).child[0], material(i).child[1]);
+        return scene.materials[material(i).child[0]];
+    };
+    expect_near(side(0).reflectance.value, {0.5f, 0.5f, 0.5f});
+    expect_near(side(1).reflectance.value, {0.8f, 0.1f, 0.1f});
+    expect_near(material(2).emission.value, {5, 6, 7});
+    expect_near(side(3).reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(material(5).model, NEARLIGHT_BSDF_MASK);
+    EXPECT_FLOAT_EQ(material(5).reflectance.value.x, 0.1f);
+    EXPECT_EQ(scene.materials[material(5).child[0]].model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_EQ(side(6).model, NEARLIGHT_BSDF_CONDUCTOR);
+    expect_near(side(7).reflectance.value, {0.2f, 0, 0});
+    EXPECT_EQ(material(8).model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    EXPECT_TRUE(has_note(scene, "m.obj:2: material library 'missing.mtl'"));
+    EXPECT_TRUE(has_note(scene, "my lib.mtl:11: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "m.obj:13: material 'nobody'"));
+    EXPECT_TRUE(scene.delta_emitters.empty());
+}
+
+// The material on both sides of the only triangle, with this text as the entry of the library.
+Material only_material(const SceneFiles& files, const std::string& entry, Scene* scene = nullptr) {
+    files.write("m.mtl", "newmtl m\n" + entry);
+    const Scene loaded = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    if (scene != nullptr) {
+        *scene = loaded;
+    }
+    return loaded.materials[loaded.materials[loaded.triangles.at(0).material].child[0]];
+}
+
+TEST(Obj, HighlightsAreRoughPlastic) {
+    const SceneFiles files;
+    const Material plastic = only_material(files, "Kd 0.5 0.4 0.3\nKs 0.2 0.3 0.4\nNs 98\nNi 1.6\nillum 2\n");
+    EXPECT_EQ(plastic.model, NEARLIGHT_BSDF_PLASTIC);
+    expect_near(plastic.reflectance.value, {0.5f, 0.4f, 0.3f});
+    expect_near(plastic.specular.value, {0.2f, 0.3f, 0.4f});
+    EXPECT_NEAR(plastic.roughness.value.x, std::sqrt(2.0 / 100.0), 1e-6);
+    EXPECT_FLOAT_EQ(plastic.eta.x, 1.6f);
+    EXPECT_NE(plastic.flags & NEARLIGHT_MATERIAL_BECKMANN, 0u);
+    EXPECT_FLOAT_EQ(only_material(files, "Ks 0.5 0.5 0.5\nNs 10\nNi 1\n").eta.x, 1.5f);
+    for (const char* matt : {"Kd 1 1 1\nKs 0.5 0.5 0.5\nillum 1\n", "Kd 1 1 1\nKs 0 0 0\nNs 50\nillum 2\n"}) {
+        EXPECT_EQ(only_material(files, matt).model, NEARLIGHT_BSDF_DIFFUSE) << matt;
+    }
+    Scene scene;
+    EXPECT_EQ(only_material(files, "Ks 1 1 1\nNs -5\nmap_Ks gone.png\nmap_Ns gone.png\n", &scene).model,
+              NEARLIGHT_BSDF_PLASTIC);
+    EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "map_Ns"));
+}
+
+TEST(Obj, RoughnessAndMetalnessArePrincipled) {
+    const SceneFiles files;
+    const Material metal =
+        only_material(files, "Kd 0.9 0.6 0.2\nKs 0.5 0.5 0.5\nNs 30\nPr 0.3\nPm 1\nillum 3\n");
+    EXPECT_EQ(metal.model, NEARLIGHT_BSDF_PRINCIPLED);
+    expect_near(metal.reflectance.value, {0.9f, 0.6f, 0.2f});
+    EXPECT_FLOAT_EQ(metal.roughness.value.x, 0.3f);
+    EXPECT_FLOAT_EQ(metal.metallic.value.x, 1.0f);
+    EXPECT_FLOAT_EQ(only_material(files, "Kd 1 1 1\nPr 7\n").roughness.value.x, 1.0f);
+    Scene scene;
+    only_material(files, "Kd 1 1 1\nPm 0.5\nPs 0.3\nPc 0.2\n", &scene);
+    EXPECT_TRUE(has_note(scene, "m.mtl:1: sheen, clear coat"));
+}
+
+TEST(Obj, LinesOfWhatIsLeftOut) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl a\nKd 1 1 1\nnewmtl b\n\nmap_Kd no.png\nnewmtl c\nmap_Kd no2.png\n");
+    const Scene scene =
+        load_obj(files,
+                 "mtllib m.mtl\nmtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\n"
+                 "f 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\nusemtl d\nf 1/1 2/1 3/1\n");
+    const auto line_of = [&](const std::string& text) {
+        const auto note =
+            std::ranges::find_if(scene.notes, [&](const Note& n) { return mentions(n.text, text); });
+        return note == scene.notes.end() ? -1 : note->line;
+    };
+    EXPECT_EQ(line_of("gone.mtl"), 2);
+    EXPECT_EQ(line_of("'d' is not defined"), 11);
+    EXPECT_EQ(line_of("no.png"), 5);
+}
+
+TEST(Obj, LinesOfABlockThatIsNotThere) {
+    const std::string text = "newmtl a\nillum 2\nnewmtl b\nillum 4\n";
+    const auto line = [&](const TextLine& first, const std::string& value) {
+        return find_in_block(text, first, "newmtl", "illum", value);
+    };
+    const auto blocks = lines_by_value(text, "newmtl");
+    EXPECT_EQ(line(blocks.at("b"), "4"), 4);
+    EXPECT_EQ(line(blocks.at("a"), "4"), 0) << "it is in the next block";
+    EXPECT_EQ(line({}, "2"), 0);
+}
+
+TEST(Obj, SeveralLibrariesOnOneLine) {
+    const SceneFiles files;
+    files.write("a.mtl", "newmtl a\nKd 0.1 0.1 0.1\nillum 1\n");
+    files.write("b.mtl", "newmtl b\nKd 0.2 0.2 0.2\nillum 1\n");
+    const Scene scene = load_obj(files,
+                                 "mtllib a.mtl b.mtl none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                                 "usemtl b\nf 1 2 3\n");
+    const auto reflectance = [&](std::size_t i) {
+        return scene.materials[scene.materials[scene.triangles.at(i).material].child[0]].reflectance.value.x;
+    };
+    EXPECT_FLOAT_EQ(reflectance(0), 0.1f);
+    EXPECT_FLOAT_EQ(reflectance(1), 0.2f);
+    EXPECT_TRUE(has_note(scene, "m.obj:1: material library 'none.mtl' cannot be read"));
+}
+
+TEST(Obj, MirrorsReflectKsAndScatterKd) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl m\nKd 0.2 0.1 0\nKs 0.4 0.5 0.5\nillum 3\n");
+    const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    const Material blend = scene.materials[scene.triangles.at(0).material];
+    ASSERT_EQ(blend.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_FLOAT_EQ(blend.reflectance.value.x, 0.5f);
+    const auto side = [&](int child) {
+        return scene.materials[scene.materials[blend.child[child]].child[0]];
+    };
+    EXPECT_EQ(side(0).model, NEARLIGHT_BSDF_DIFFUSE);
+    expect_near(side(0).reflectance.value, {0.4f, 0.2f, 0});
+    EXPECT_EQ(side(1).model, NEARLIGHT_BSDF_CONDUCTOR);
+    expect_near(side(1).specular.value, {0.8f, 1, 1});
+    expect_near(only_material(files, "Kd 0.3 0.3 0.3\nillum 3\n").reflectance.value, {0.3f, 0.3f, 0.3f});
+}
+
+/// Blender's exporter writes metalness as Ka, and roughness as Ns = 1000·(1 − roughness)².
+TEST(Obj, BlendersMetalAndPlastic) {
+    const SceneFiles files;
+    const auto material = [&](const std::string& entry) {
+        files.write("b.mtl", "# Blender 4.0.2 MTL File: 'a.blend'\n\nnewmtl m\n" + entry);
+        const Scene scene = load_obj(files, "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    };
+    const Material metal = material("Ns 250\nKa 0.9 0.9 0.9\nKd 1 0.77 0.34\nKs 0.5 0.5 0.5\nillum 3\n");
+    EXPECT_EQ(metal.model, NEARLIGHT_BSDF_PRINCIPLED);
+    expect_near(metal.reflectance.value, {1, 0.77f, 0.34f});
+    EXPECT_NEAR(metal.roughness.value.x, 0.5f, 1e-6f);
+    EXPECT_FLOAT_EQ(metal.metallic.value.x, 0.9f);
+    const Material plastic = material("Ns 1000\nKa 1 1 1\nKd 1 1 1\nKs 0.5 0.5 0.5\nNi 1.45\nillum 2\n");
+    EXPECT_EQ(plastic.model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_FLOAT_EQ(plastic.roughness.value.x, 0.0f);
+    EXPECT_FLOAT_EQ(plastic.metallic.value.x, 0.0f);
+    EXPECT_FLOAT_EQ(plastic.eta.x, 1.45f);
+    EXPECT_EQ(material("Ns 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n").model, NEARLIGHT_BSDF_DIFFUSE);
+}
+
+TEST(Obj, TfTintsGlass) {
+    const SceneFiles files;
+    const auto pane = [&](const std::string& entry) {
+        files.write("m.mtl", "newmtl m\nillum 4\n" + entry);
+        const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+        return scene.materials[scene.triangles.at(0).material];
+    };
+    expect_near(pane("Tf 0.9 0.5 0.1\n").transmission.value, {0.9f, 0.5f, 0.1f});
+    expect_near(pane("").transmission.value, {1, 1, 1});
+}
+
+/// A surface that refracts is a body if it has no border.
+TEST(Obj, ClosedGlassIsABody) {
+    const SceneFiles files;
+    const std::string tetrahedron =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+    const auto glass = [&](const char* model, const std::string& faces) {
+        files.write("m.mtl", std::string("newmtl m\nTf 0.25 1 1\nNi 1.33\nillum ") + model + "\n");
+        const Scene scene =
+            load_obj(files, "mtllib m.mtl\n" + tetrahedron + faces + "usemtl other\nf 1 2 3\n");
+        return scene.materials[scene.triangles.at(0).material];
+    };
+    const Material body = glass("7", "f 1 4 3\n");
+    EXPECT_EQ(body.model, NEARLIGHT_BSDF_DIELECTRIC);
+    EXPECT_FLOAT_EQ(body.eta.x, 1.33f);
+    EXPECT_FLOAT_EQ(body.transmission.value.x, 0.5f);
+    EXPECT_EQ(glass("7", "").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    EXPECT_EQ(glass("4", "f 1 4 3\n").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
+}
+
+class ObjTextures : public testing::Test {
+  protected:
+    /// The only material of a triangle with this entry, below any mask and side.
+    Material load(const std::string& entry) {
+        files_.write("m.mtl", "newmtl m\nillum 1\n" + entry);
+        scene_ =
+            load_obj(files_, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+        return scene_.materials[scene_.triangles.at(0).material];
+    }
+    [[nodiscard]] Texture texture(const Parameter& parameter) const {
+        return scene_.textures.at(static_cast<std::size_t>(parameter.texture)).parameters;
+    }
+    Image write_image(const std::string& name, const std::vector<std::string>& channels,
+                      const std::vector<float>& pixel) {
+        Image image{1, 1, channels, pixel};
+        nearlight::core::write_image(files_.path(name), image);
+        return image;
+    }
+
+    SceneFiles files_;
+    Scene scene_;
+};
+
+TEST_F(ObjTextures, OptionsPlaceThem) {
+    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    const Material two_sided = load("map_Kd -s 4 2 1 -o 0.5 0.25 0 -clamp on a.exr\n");
+    const Texture placed = texture(scene_.materials[two_sided.child[0]].reflectance);
+    EXPECT_FLOAT_EQ(placed.u_scale, 4.0f);
+    EXPECT_FLOAT_EQ(placed.v_scale, 2.0f);
+    EXPECT_FLOAT_EQ(placed.u_offset, 0.5f);
+    EXPECT_FLOAT_EQ(placed.v_offset, 0.25f);
+    EXPECT_EQ(placed.wrap_s, static_cast<uint>(NEARLIGHT_WRAP_CLAMP));
+    EXPECT_TRUE(scene_.notes.empty() || !has_note(scene_, "-mm"));
+    load("map_Kd -mm 0.1 2 a.exr\n");
+    EXPECT_TRUE(has_note(scene_, "m.mtl:3: -mm and -t"));
+}
+
+TEST_F(ObjTextures, OpacityIsTheAlphaOfImagesThatHaveSome) {
+    write_image("leaf.exr", {"R", "G", "B", "A"}, {0.1f, 0.6f, 0.1f, 0.25f});
+    write_image("grey.exr", {"R", "G", "B", "A"}, {0.75f, 0.75f, 0.75f, 1.0f});
+    const auto opacity = [&](const std::string& entry) {
+        const Material mask = load(entry);
+        EXPECT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
+        return parameter_value(scene_, mask.reflectance, 0, 0).x;
+    };
+    EXPECT_NEAR(opacity("map_d leaf.exr\n"), 0.25f, 1e-3f);
+    EXPECT_NEAR(opacity("map_d grey.exr\n"), 0.75f, 1e-3f);
+    EXPECT_NEAR(opacity("map_d -imfchan g leaf.exr\n"), 0.6f, 1e-3f);
+}
+
+TEST_F(ObjTextures, EmissionHasOne) {
+    write_image("screen.exr", {"R", "G", "B"}, {3, 2, 1});
+    const Material lit = load("Ke 2 2 2\nmap_Ke screen.exr\n");
+    expect_near(parameter_value(scene_, lit.emission, 0, 0), {6, 4, 2}, 1e-2f);
+    expect_near(parameter_value(scene_, load("map_Ke screen.exr\n").emission, 0, 0), {3, 2, 1}, 1e-2f);
+    EXPECT_TRUE(is_zero(load("Kd 1 1 1\n").emission.value));
+}
+
+TEST_F(ObjTextures, MapsOfNormalsCountAndHeightsAreLeftOut) {
+    write_image("normal.exr", {"R", "G", "B"}, {0.5f, 0.5f, 1.0f});
+    write_image("height.exr", {"R", "G", "B"}, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(load("norm normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
+    EXPECT_EQ(load("map_Bump -bm 1.0 normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
+    EXPECT_EQ(load("bump height.exr\n").model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_TRUE(has_note(scene_, "bump maps of OBJ materials are left out"));
+}
+
+}  // namespace
+}  // namespace nearlight::core

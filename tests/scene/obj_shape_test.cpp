@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape of OBJ scenes: polygons, normals, colours of vertices.
+#include <array>
+#include <cmath>
+
+#include "host/base/math.h"
+#include "tests/scene/obj_text.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace test;
+
+/// The area that the triangles cover in the plane z = 0, with their signs.
+float signed_area(const Scene& scene) {
+    float area = 0;
+    for (const Triangle& t : scene.triangles) {
+        const Vec3 a = scene.vertices[t.v0].position;
+        area += 0.5f * cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a).z;
+    }
+    return area;
+}
+
+TEST(Obj, PolygonsThatAreNotConvexAreNotFilled) {
+    const SceneFiles files;
+    const std::string notched = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n";
+    const Scene scene = load_obj(files, notched);
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    EXPECT_FLOAT_EQ(signed_area(scene), 2.5f);
+    for (const Triangle& t : scene.triangles) {
+        const Vec3 a = scene.vertices[t.v0].position;
+        EXPECT_GT(cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a).z, 0.0f);
+    }
+    // A shape of a Mitsuba file is the fan that Mitsuba makes of it.
+    const Scene shape = files.load_xml("<shape type='obj'><string name='filename' value='m.obj'/></shape>");
+    const Triangle first = shape.triangles.at(0);
+    expect_near(shape.vertices[first.v2].position, {2, 2, 0});
+    EXPECT_EQ(first.v0, shape.triangles.at(2).v0);
+}
+
+/// The shading normals at the corners of a triangle; a normal of 0 stands for the facet's.
+std::array<Vec3, 3> corner_normals(const Scene& scene, std::size_t triangle) {
+    const Triangle t = scene.triangles.at(triangle);
+    return {scene.vertices[t.v0].normal, scene.vertices[t.v1].normal, scene.vertices[t.v2].normal};
+}
+
+/// Two squares that meet at the x axis, the second one turned up by an angle.
+std::string folded(float degrees, const std::string& first = "", const std::string& second = "") {
+    const float angle = degrees_to_radians(degrees);
+    return "v 0 0 0\nv 1 0 0\nv 0 -1 0\nv 1 -1 0\nv 0 " + std::to_string(std::cos(angle)) + " " +
+           std::to_string(std::sin(angle)) + "\nv 1 " + std::to_string(std::cos(angle)) + " " +
+           std::to_string(std::sin(angle)) + "\n" + first + "f 3 4 2 1\n" + second + "f 1 2 6 5\n";
+}
+
+TEST(Obj, WithoutNormalsSmallAnglesAreSmoothAndLargeOnesAreCreases) {
+    const SceneFiles files;
+    const Scene smooth = load_obj(files, folded(20));
+    const float half = degrees_to_radians(10.0f);
+    expect_near(corner_normals(smooth, 0)[2], {0, -std::sin(half), std::cos(half)});
+    expect_near(corner_normals(smooth, 0)[0], {0, 0, 1});
+    EXPECT_EQ(smooth.vertices.size(), 6u);
+    const Scene crease = load_obj(files, folded(60));
+    for (const Vec3 normal : corner_normals(crease, 0)) {
+        expect_near(normal, {0, 0, 1});
+    }
+    EXPECT_EQ(crease.vertices.size(), 8u) << "the edge has two normals";
+}
+
+TEST(Obj, SmoothingGroupsSayWhatIsSmooth) {
+    const SceneFiles files;
+    const Scene one = load_obj(files, folded(60, "s 1\n"));
+    expect_near(corner_normals(one, 0)[2], {0, -0.5f, std::sqrt(0.75f)});
+    const Scene two = load_obj(files, folded(20, "s 1\n", "s 2\n"));
+    expect_near(corner_normals(two, 0)[2], {0, 0, 1});
+    for (const char* const off : {"s off\n", "s 0\n"}) {
+        const Scene flat = load_obj(files, folded(20, off));
+        for (const Vec3 normal : corner_normals(flat, 1)) {
+            expect_near(normal, {0, 0, 0});
+        }
+    }
+    const Scene late = load_obj(files, folded(20, "", "s 1\n"));
+    expect_near(corner_normals(late, 0)[0], {0, 0, 0});
+    EXPECT_GT(corner_normals(late, 2)[0].z, 0.9f);
+}
+
+/// A seam in the texture is no crease.
+TEST(Obj, TextureCoordinatesDoNotCutSmoothSurfaces) {
+    const SceneFiles files;
+    std::string text = folded(20);
+    text.resize(text.find("f 3"));
+    const Scene scene = load_obj(files, text + "vt 0 0\nvt 1 1\nf 3/1 4/1 2/1 1/1\nf 1/2 2/2 6/2 5/2\n");
+    EXPECT_EQ(scene.vertices.size(), 8u);
+    EXPECT_LT(corner_normals(scene, 0)[2].y, -0.1f);
+    EXPECT_FLOAT_EQ(corner_normals(scene, 0)[2].y, corner_normals(scene, 2)[1].y);
+}
+
+TEST(Obj, LinesMayContinue) {
+    const SceneFiles files;
+    const Scene scene = load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\r\n 3 \\\n 4\n");
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    const std::string error = file_error([&] { load_obj(files, "v 0 0 0\nf 1 \\\n1 \\\n1\nf 1 2 3\n"); });
+    EXPECT_TRUE(mentions(error, "m.obj:5: ")) << error;
+}
+
+TEST(Obj, ColoursOfVerticesAreTheSurfaces) {
+    const SceneFiles files;
+    const Scene scene = load_obj(files, "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0.5 0.5 0.5\nf 1 2 3\n");
+    ASSERT_EQ(scene.vertex_colors.size(), 3u);
+    expect_near(scene.vertex_colors[0], {1, 0, 0});
+    EXPECT_NEAR(scene.vertex_colors[2].x, 0.2140f, 1e-4f) << "they are sRGB";
+    const Material side = scene.materials[scene.materials[scene.triangles[0].material].child[0]];
+    ASSERT_GE(side.reflectance.texture, 0);
+    EXPECT_EQ(scene.textures[static_cast<std::size_t>(side.reflectance.texture)].parameters.kind,
+              NEARLIGHT_TEXTURE_VERTEX_COLOR);
+    EXPECT_TRUE(load_obj(files, "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertex_colors.empty());
+}
+
+}  // namespace
+}  // namespace nearlight::core
