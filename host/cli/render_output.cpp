@@ -2,7 +2,9 @@
 #include "host/cli/render_output.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include "host/base/hash.h"
@@ -122,6 +124,14 @@ void add_seconds(nlohmann::ordered_json& json, const RenderFacts& facts) {
     json["processor_seconds"] = {{"first_rows", facts.first_rows.processor_seconds}};
 }
 
+/// Whole numbers of pictures have 32 bits; greater ones are written as text.
+Metadata::mapped_type count_value(std::uint64_t count) {
+    if (count <= std::uint64_t{std::numeric_limits<int>::max()}) {
+        return static_cast<int>(count);
+    }
+    return std::to_string(count);
+}
+
 }  // namespace
 
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
@@ -135,7 +145,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     if (!settings.sampling.file.empty()) {
         metadata["nearlight:vplFile"] = settings.sampling.file.string();
     }
-    metadata["nearlight:vpls"] = static_cast<int>(report.totals.close_vpls + report.totals.distant_vpls);
+    metadata["nearlight:vpls"] = count_value(report.totals.close_vpls + report.totals.distant_vpls);
     metadata["nearlight:vplsAsked"] = static_cast<int>(settings.sampling.vpl_count);
     metadata["nearlight:cuts"] = settings.sampling.cuts ? "on" : "off";
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
@@ -155,7 +165,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);
     metadata["nearlight:filter"] = to_string(view.scene_camera.filter.kind);
-    metadata["nearlight:seed"] = static_cast<int>(settings.seed);
+    metadata["nearlight:seed"] = count_value(settings.seed);
     metadata["nearlight:device"] =
         text_of_devices(devices, [](const DeviceEntry& entry) { return entry.label(); });
     metadata["nearlight:driver"] =

@@ -90,7 +90,7 @@ TEST_F(GltfLook, AnisotropyStretchesReflectionsAlongU) {
 }
 
 TEST_F(GltfLook, AnisotropyDoesNotFrostGlass) {
-    gltf_.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 0.25}};
+    gltf_.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0.25}};
     extension("KHR_materials_volume") = {{"thicknessFactor", 1}};
     extension("KHR_materials_anisotropy") = {{"anisotropyStrength", 0.5}};
     extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};

@@ -55,6 +55,35 @@ TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {
     EXPECT_NEAR(std::pow((eta - 1) / (eta + 1), 2), 0.25 * 0.04, 1e-6);
     gltf_.material()["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
     EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_DIFFUSE);
+    gltf_.material()["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_PRINCIPLED) << "metal reflects whatever the factor is";
+    EXPECT_FLOAT_EQ(side_of(load()).metallic.value.x, 1.0f);
+}
+
+TEST_F(GltfLoader, ReflectionsDoNotChangeWhatGlassRefracts) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                        {"extensions",
+                         {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                          {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+                          {"KHR_materials_specular", {{"specularFactor", 0}}},
+                          {"KHR_materials_ior", {{"ior", 1.7}}}}}};
+    EXPECT_FLOAT_EQ(top_of(load()).eta.x, 1.7f);
+    gltf_.material()["extensions"]["KHR_materials_ior"]["ior"] = 1;
+    EXPECT_FLOAT_EQ(top_of(load()).eta.x, 1.001f) << "light goes straight on";
+}
+
+TEST_F(GltfLoader, MetalLetsNothingThrough) {
+    gltf_.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}}},
+                        {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    const Scene scene = load();
+    const Material blend = top_of(scene);
+    ASSERT_EQ(blend.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_FLOAT_EQ(blend.reflectance.value.x, 0.25f);
+    EXPECT_EQ(scene.materials.at(scene.materials.at(blend.child[1]).child[0]).model,
+              NEARLIGHT_BSDF_PRINCIPLED);
+    const Material rest = scene.materials.at(blend.child[0]);
+    ASSERT_EQ(rest.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_FLOAT_EQ(rest.reflectance.value.x, 1.0f) << "all of the rest is glass";
 }
 
 TEST_F(GltfLoader, TransmissionIsGlass) {

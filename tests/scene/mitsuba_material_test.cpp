@@ -71,6 +71,15 @@ TEST_F(MitsubaMaterial, PlasticsAndTheirOldNames) {
     EXPECT_EQ(scene_.transmission_curves.size(), 2u * NEARLIGHT_CURVE_SIZE);
 }
 
+TEST_F(MitsubaMaterial, ConductorsOfOldFilesAreCopper) {
+    const std::string text =
+        "<scene version='0.6.0'>" + shape("rectangle", "<bsdf type='conductor'/>") + "</scene>\n";
+    const Scene scene = load_scene(files_.write("scene.xml", text));
+    const Material metal = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(metal.eta, load("conductor", "<string name='material' value='Cu'/>").eta);
+    EXPECT_FLOAT_EQ(load("conductor", "").k.x, 1.0f) << "a perfect mirror, as in Mitsuba 3";
+}
+
 TEST_F(MitsubaMaterial, Metals) {
     const Material gold =
         load("roughconductor", text("material", "Au") + number("alpha_u", "0.3") + number("alpha_v", "0.1") +

@@ -38,6 +38,16 @@ TEST(MitsubaSky, RadianceIsThatOfMitsuba) {
     expect_ratio(sky_towards(hazy, {1, 0, 0.5f}, low), {0.1456849f, 0.11171092f, 0.0691696f}, 1e-4f);
 }
 
+TEST(MitsubaSky, ASingularTransformIsAnErrorWithItsLine) {
+    const SceneFiles files;
+    const std::string error = file_error([&] {
+        files.load_xml("<emitter type='sunsky'><vector name='sun_direction' x='0' y='1' z='1'/>" +
+                       to_world("<scale x='0' y='1' z='1'/>") + "</emitter>");
+    });
+    EXPECT_TRUE(mentions(error, "scene.xml:2: ")) << error;
+    EXPECT_TRUE(mentions(error, "singular")) << error;
+}
+
 TEST(MitsubaSky, PlaceAndTimeTellTheSun) {
     expect_near(sun_direction({}), {0.0513851f, 0.691748f, 0.720308f}, 2e-3f);
     expect_near(sun_direction({.latitude = -33.9,

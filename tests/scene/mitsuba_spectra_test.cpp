@@ -42,6 +42,22 @@ TEST(Spectra, ListsFilesAndObjectsHaveMitsubasColours) {
     expect_near(mitsuba::parse_spectrum("540:0, 545:0.5, 550:0", {}).reflectance, {0, 0.0366208f, 0}, 2e-5f);
 }
 
+/// In files of Mitsuba 0.5 and 0.6, <rgb> is linear however it is written, and <srgb> never.
+TEST(Spectra, ColoursOfOldFiles) {
+    const SceneFiles files;
+    const auto color = [&](const std::string& version, const std::string& element) {
+        const std::string text = "<scene version='" + version + "'>\n<emitter type='point'>" + element +
+                                 "</emitter><shape type='rectangle'/></scene>\n";
+        return load_scene(files.write("scene.xml", text)).delta_emitters.at(0).radiance.x;
+    };
+    constexpr float kHalf = 0.21404f;  // what sRGB's 0.5 is
+    EXPECT_NEAR(color("0.6.0", "<srgb name='intensity' value='0.5'/>"), kHalf, 1e-4f);
+    EXPECT_NEAR(color("0.6.0", "<srgb name='intensity' value='#808080'/>"), kHalf, 3e-3f);
+    EXPECT_NEAR(color("0.6.0", "<rgb name='intensity' value='0.5'/>"), 0.5f, 1e-6f);
+    EXPECT_NEAR(color("0.6.0", "<rgb name='intensity' value='#808080'/>"), 128.0f / 255, 1e-4f);
+    EXPECT_NEAR(color("3.0.0", "<rgb name='intensity' value='#808080'/>"), kHalf, 3e-3f);
+}
+
 TEST(Spectra, NumbersD65AndColours) {
     const SceneFiles files;
     expect_near(intensity(files, "<spectrum name='intensity' value='2'/>"), {2.40959f, 1.89658f, 1.81783f});

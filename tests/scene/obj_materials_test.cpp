@@ -181,8 +181,25 @@ TEST(Obj, TfTintsGlass) {
         const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
         return scene.materials[scene.triangles.at(0).material];
     };
-    expect_near(pane("Tf 0.9 0.5 0.1\n").transmission.value, {0.9f, 0.5f, 0.1f});
+    expect_near(pane("Tf 0.9 0.5 0.1\n").transmission.value, {1, 5.0f / 9, 1.0f / 9});
+    expect_near(pane("Tf 0.1 0.1 0.1\n").transmission.value, {1, 1, 1});
     expect_near(pane("").transmission.value, {1, 1, 1});
+}
+
+/// Maya writes illum 4 for all surfaces.
+TEST(Obj, Illum4IsGlassOnlyIfSomethingSaysSo) {
+    const SceneFiles files;
+    const auto model = [&](const std::string& entry) {
+        files.write("m.mtl", "newmtl m\nillum 4\n" + entry);
+        const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+        const Material material = scene.materials[scene.triangles.at(0).material];
+        return material.model == NEARLIGHT_BSDF_TWO_SIDED ? scene.materials[material.child[0]].model
+                                                          : material.model;
+    };
+    EXPECT_EQ(model("Kd 0.5 0.5 0.5\nTf 1 1 1\nNi 1\nKs 0.5 0.5 0.5\nNs 18\n"), NEARLIGHT_BSDF_PLASTIC);
+    for (const char* glass : {"Kd 0 0 0\n", "Kd 0.5 0.5 0.5\nd 0.2\n", "Kd 0.5 0.5 0.5\nNi 1.5\n"}) {
+        EXPECT_EQ(model(glass), NEARLIGHT_BSDF_THIN_DIELECTRIC) << glass;
+    }
 }
 
 /// A surface that refracts is a body if it has no border.

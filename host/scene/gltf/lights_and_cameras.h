@@ -29,8 +29,7 @@ void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to
 void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                  std::vector<PlacedCamera>& cameras);
 
-/// Adds point and spot lights, and directional lights as distant spots. All surfaces must already be in the
-/// scene.
+/// Adds the lights in the order of their nodes.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);
 
 /// The camera that `wanted` chooses (named_choice.h) by the names of its node and its own. Throws

@@ -77,7 +77,7 @@ uint MaterialMaker::add_rough_pane(const SurfaceModel& surface, double index) {
 }
 
 uint MaterialMaker::add_glass(const SurfaceModel& surface) {
-    const double index = surface.index > 1.001 ? surface.index : kUsualIndex;
+    const double index = surface.refraction_index;
     const bool is_rough = surface.roughness.value.x > 0.0f;
     if (surface.is_thin && is_rough) {
         return add_rough_pane(surface, index);
@@ -113,7 +113,11 @@ uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& us
     const SurfaceModel surface = read_surface(source, context);
     uint made = surface.is_glass() ? add_glass(surface) : add_opaque(surface);
     if (surface.transmits() && !surface.is_glass()) {
-        made = add(blend_material(surface.transmission, made, add_glass(surface)));
+        const uint opaque = made;
+        made = add(blend_material(surface.transmission, opaque, add_glass(surface)));
+        if (surface.is_metal()) {  // metal lets nothing through
+            made = add(blend_material(surface.metallic, made, opaque));
+        }
     }
     if (has_normal_map(use.index) && !surface.is_unlit) {
         made = add_normal_map(source, context, use.is_mirrored, made);

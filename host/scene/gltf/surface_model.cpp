@@ -13,6 +13,9 @@ namespace {
 
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
+/// The least index of the models, which stands for no reflections.
+constexpr double kMinIndex = 1.001;
+
 Vec3 clamped(Vec3 c) {
     return min(max(c, {0, 0, 0}), {1, 1, 1});
 }
@@ -163,9 +166,12 @@ void read_reflections(const tinygltf::Material& source, const SurfaceContext& co
         texture_of(source.extensions, kSpecular, "specularColorTexture").index >= 0) {
         context.approximate("KHR_materials_specular: its textures are left out");
     }
-    surface.reflects = factor > 0.0 && surface.index > 1.0;
+    surface.refraction_index = surface.index >= 1.0 ? std::max(surface.index, kMinIndex) : kUsualIndex;
+    surface.dielectric_reflects = factor > 0.0 && surface.index > 1.0;
     const double root = (surface.index - 1.0) / (surface.index + 1.0);
-    surface.index = surface.reflects ? index_of_reflectance(root * root * factor) : kUsualIndex;
+    surface.index = surface.dielectric_reflects
+                        ? std::max(index_of_reflectance(root * root * factor), kMinIndex)
+                        : kMinIndex;
 }
 
 /// Metalness and roughness of materials that are given by the colour of their reflections. Those that reflect
@@ -191,9 +197,8 @@ void read_specular_glossiness(const tinygltf::Material& source, const SurfaceCon
     if (is_metal) {
         surface.color = reflected;
     }
-    surface.reflects = mean > 0.0f;
-    surface.index =
-        surface.reflects ? index_of_reflectance(std::min(static_cast<double>(mean), 0.25)) : kUsualIndex;
+    surface.dielectric_reflects = mean > 0.0f;
+    surface.index = std::max(index_of_reflectance(std::min(static_cast<double>(mean), 0.25)), kMinIndex);
 }
 
 /// KHR_materials_anisotropy, which stretches the microfacets along u: α is that of the roughness across it,
@@ -310,9 +315,9 @@ bool has_opacity(const tinygltf::Material& source) {
 }
 
 bool SurfaceModel::is_diffuse() const {
-    const bool is_metal = metallic.value.x > 0.0f;
     const bool is_layered = clearcoat.value.x > 0.0f || sheen.value.x > 0.0f;
-    return !is_layered && (!reflects || (!is_metal && roughness.texture < 0 && roughness.value.x >= 1.0f));
+    const bool is_fully_rough = roughness.texture < 0 && roughness.value.x >= 1.0f;
+    return !is_layered && !is_metal() && (!dielectric_reflects || is_fully_rough);
 }
 
 SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context) {

@@ -19,21 +19,25 @@ struct SurfaceModel {
     Parameter transmission = parameter_of(0.0f);
     Parameter clearcoat = parameter_of(0.0f);
     Parameter sheen = parameter_of(0.0f);
-    double index = kUsualIndex;
+    double index = kUsualIndex;             ///< that gives the reflections of what is no metal their strength
+    double refraction_index = kUsualIndex;  ///< of glass
     double clearcoat_roughness = 0;
     float anisotropic = 0;  ///< of the principled model, along u
     /// The roughness with which that model makes the stretched reflections.
     Parameter stretched_roughness = parameter_of(1.0f);
     Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
     bool is_thin = true;
-    bool reflects = true;
+    bool dielectric_reflects = true;  ///< metal always does
     bool is_unlit = false;
 
     /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
     [[nodiscard]] bool is_diffuse() const;
     [[nodiscard]] bool transmits() const { return transmission.value.x > 0.0f; }
+    [[nodiscard]] bool is_metal() const { return metallic.value.x > 0.0f; }
     /// Whether none of it is opaque.
-    [[nodiscard]] bool is_glass() const { return transmission.texture < 0 && transmission.value.x >= 1.0f; }
+    [[nodiscard]] bool is_glass() const {
+        return transmission.texture < 0 && transmission.value.x >= 1.0f && !is_metal();
+    }
 };
 
 /// What the reader of a material works with.

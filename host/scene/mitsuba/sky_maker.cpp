@@ -45,6 +45,10 @@ Vec3 local_sun_direction(const Object& sky, const Mat4& to_world) {
         }
     }
     const Triple d = sky.triple("sun_direction", {0, 0, 1});
+    if (linear_determinant(to_world) == 0.0) {
+        fail(sky.where,
+             "the transform of this sky is singular: it maps space onto a plane, a line or a point");
+    }
     const Vec3 direction = normalize(transform_vector(
         inverse(to_world), {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])}));
     if (is_zero(direction)) {

@@ -158,7 +158,7 @@ Material SurfaceModels::make_plastic(const Object& bsdf) {
 
 void SurfaceModels::read_metal(const Object& bsdf, Material& material) {
     // Without a material, Mitsuba 0.6 takes copper, and Mitsuba 3 a perfect mirror.
-    const std::string name = bsdf.string("material", "none");
+    const std::string name = bsdf.string("material", bsdf.is_old ? "Cu" : "none");
     const std::optional<Metal> metal = find_metal(name);
     if (!metal) {
         fail(bsdf.find("material")->where, "unknown metal '" + name + "'; give eta and k instead");

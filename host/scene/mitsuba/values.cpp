@@ -3,12 +3,21 @@
 
 #include <cctype>
 
+#include "host/image/color.h"
 #include "host/scene/number_text.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
 
 constexpr const char* kSeparators = ", \t\r\n";
+
+Vec3 decoded(Vec3 c) {
+    return {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
+}
+
+Vec3 encoded(Vec3 c) {
+    return {linear_to_srgb(c.x), linear_to_srgb(c.y), linear_to_srgb(c.z)};
+}
 
 }  // namespace
 
@@ -57,17 +66,19 @@ std::vector<double> parse_numbers(const std::string& text, const Location& where
     return numbers;
 }
 
-Color parse_rgb(const std::string& text, const Location& where) {
+Color parse_rgb(const std::string& text, const Location& where, ColorCode code) {
     const std::vector<std::string> words = split_words(text);
     if (const std::optional<Vec3> rgb = hex_color_in(words.size() == 1 ? words[0] : text)) {
-        return {*rgb, *rgb};
+        const Vec3 color = code.is_hex_srgb ? *rgb : encoded(*rgb);
+        return {color, color};
     }
     const std::vector<double> n = parse_numbers(text, where);
     if (n.size() != 1 && n.size() != 3) {
         fail(where, "'" + text + "' is not a colour: one or three numbers, or #rrggbb");
     }
-    const Vec3 rgb{static_cast<float>(n[0]), static_cast<float>(n[n.size() / 2]),
-                   static_cast<float>(n.back())};
+    const Vec3 given{static_cast<float>(n[0]), static_cast<float>(n[n.size() / 2]),
+                     static_cast<float>(n.back())};
+    const Vec3 rgb = code.are_numbers_srgb ? decoded(given) : given;
     return {rgb, rgb};
 }
 

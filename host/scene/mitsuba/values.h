@@ -20,7 +20,13 @@ double parse_number(const std::string& text, const Location& where);
 std::vector<std::string> split_words(const std::string& text);
 /// Numbers that commas or white space separate.
 std::vector<double> parse_numbers(const std::string& text, const Location& where);
-/// The colour that one or three numbers, or #rrggbb (sRGB), stand for.
-Color parse_rgb(const std::string& text, const Location& where);
+/// How the numbers of a colour are meant. Mitsuba 2 and 3 have linear numbers, and #rrggbb in sRGB. In files
+/// of 0.5 and 0.6, the element <rgb> has both linear, and <srgb> both in sRGB.
+struct ColorCode {
+    bool are_numbers_srgb = false;
+    bool is_hex_srgb = true;
+};
+/// The colour that one or three numbers, or #rrggbb, stand for.
+Color parse_rgb(const std::string& text, const Location& where, ColorCode code = {});
 
 }  // namespace nearlight::core::mitsuba

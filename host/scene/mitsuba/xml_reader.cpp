@@ -178,8 +178,11 @@ class Reader {
         if (tag == "string") {
             return element.required("value");
         }
-        if (tag == "rgb" || tag == "srgb") {
-            return parse_rgb(element.required("value"), element.where);
+        if (tag == "rgb") {
+            return parse_rgb(element.required("value"), element.where, {.is_hex_srgb = !element.is_old()});
+        }
+        if (tag == "srgb") {
+            return parse_rgb(element.required("value"), element.where, {.are_numbers_srgb = true});
         }
         if (tag == "spectrum") {
             return read_spectrum_value(element);

@@ -65,9 +65,20 @@ bool is_blenders_metal(const MaterialSource& source) {
     return source.library.is_blenders && (source.entry.illum == 3 || source.entry.illum == 6);
 }
 
+/// Maya gives illum 4 to all materials. So that model alone makes no glass of a surface that has a colour of
+/// its own, an opacity of 1 and no index of refraction.
 bool is_glass(const MaterialSource& source) {
-    const int model = source.entry.illum;
-    return model == 4 || model == 7 || (model == 6 && !source.library.is_blenders);
+    const tinyobj::material_t& entry = source.entry;
+    const bool is_opaque = entry.dissolve >= 1.0f && entry.ior <= 1.001f &&
+                           (!is_zero(to_vec3(entry.diffuse)) || !entry.diffuse_texname.empty());
+    return entry.illum == 7 || (entry.illum == 6 && !source.library.is_blenders) ||
+           (entry.illum == 4 && !is_opaque);
+}
+
+/// The colour with its largest component at 1, or white for black. Programs agree about the colour of Tf, but
+/// not whether a small one means dark or clear glass.
+Vec3 hue(Vec3 color) {
+    return is_zero(color) ? Vec3{1, 1, 1} : color / max_component(color);
 }
 
 bool is_mirror(const MaterialSource& source) {
@@ -149,14 +160,12 @@ class ObjMaterials {
         return add_two_sided(scene_, has_highlight(source.entry) ? plastic(source) : diffuse(source));
     }
 
-    /// A body where the model refracts and the surface has no border, otherwise a pane. Tf is what passes;
-    /// files that say 0 or nothing mean clear glass.
+    /// A body where the model refracts and the surface has no border, otherwise a pane. Tf tints it.
     uint add_glass(const MaterialSource& source) {
         const bool is_body = source.entry.illum != 4 && is_closed(source.mesh, source.group);
         const double index = index_of(source.entry);
         Material glass = is_body ? dielectric_material(index) : thin_dielectric_material(index);
-        const Vec3 given = clamped(to_vec3(source.entry.transmittance));
-        const Vec3 tint = is_zero(given) ? Vec3{1, 1, 1} : given;
+        const Vec3 tint = hue(max(to_vec3(source.entry.transmittance), {0, 0, 0}));
         // Light that goes through a body passes its surface twice.
         glass.transmission =
             parameter_of(is_body ? Vec3{std::sqrt(tint.x), std::sqrt(tint.y), std::sqrt(tint.z)} : tint);
