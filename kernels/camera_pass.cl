@@ -120,14 +120,14 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
                                uint max_edges) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
-    const PathLimits ray = {max_edges,
-                            max_edges,
-                            INFINITY,
-                            min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
-                            1,
-                            0,
-                            sequence_index(path),
-                            INFINITY};
+    const PathLimits ray = {.max_edges = max_edges,
+                            .vpl_edges = max_edges,
+                            .clamp_radius = INFINITY,
+                            .light_samples = min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
+                            .path_count = 1,
+                            .bundle_count = 0,
+                            .sample = sequence_index(path),
+                            .shared_limit = INFINITY};
     Finds finds = nothing_shared();
     const ReceivedLight light = received_light(
         scene, &at, &ray, random_uint4((uint4)(path->sequence, max_edges, 0x7ace5u, 0x3u)), &finds);

@@ -32,14 +32,14 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
     const uint max_edges = params->max_edges;
     const uint surfaces = receiver_surfaces(receiver, lane);
     const uint own_edges = max_edges > surfaces ? max_edges - surfaces : 0;
-    const PathLimits limits = {own_edges,
-                               max_edges < LONG_PATH ? max_edges : own_edges,
-                               params->clamp_radius,
-                               params->light_samples,
-                               params->path_count,
-                               shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
-                               receiver_sample(receiver, lane),
-                               params->shared_limit};
+    const PathLimits limits = {.max_edges = own_edges,
+                               .vpl_edges = max_edges < LONG_PATH ? max_edges : own_edges,
+                               .clamp_radius = params->clamp_radius,
+                               .light_samples = params->light_samples,
+                               .path_count = params->path_count,
+                               .bundle_count = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
+                               .sample = receiver_sample(receiver, lane),
+                               .shared_limit = params->shared_limit};
     return limits;
 }
 

@@ -113,7 +113,13 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
         return (float3)(0.0f);
     }
     const uint max_edges = limits->max_edges - veils;
-    const RayShare share = {0.0f, max_edges, max_edges, 1, 1, 0, VEILED_PART * limits->shared_limit};
+    const RayShare share = {.of_vpls = 0.0f,
+                            .max_edges = max_edges,
+                            .vpl_edges = max_edges,
+                            .is_shared = 1,
+                            .is_diffuse = 1,
+                            .finds_veiled = 0,
+                            .shared_limit = VEILED_PART * limits->shared_limit};
     Continuation way;
     FoundReflection none = no_reflection_found();
     const ReceivedLight light = continued_light(scene, *ray, behind, &share, keys ^ 0x7e11u, &way, &none);
@@ -155,13 +161,13 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
         light.indirect = find_behind_veils(scene, at, limits, &ray, keys, finds);
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
-    const RayShare share = {of_vpls / receiver_map_factor(at, ray.direction),
-                            limits->max_edges,
-                            limits->vpl_edges,
-                            finds->near.is_wanted && hit.t < limits->clamp_radius,
-                            0,
-                            finds->veiled.is_wanted,
-                            limits->shared_limit};
+    const RayShare share = {.of_vpls = of_vpls / receiver_map_factor(at, ray.direction),
+                            .max_edges = limits->max_edges,
+                            .vpl_edges = limits->vpl_edges,
+                            .is_shared = finds->near.is_wanted && hit.t < limits->clamp_radius,
+                            .is_diffuse = 0,
+                            .finds_veiled = finds->veiled.is_wanted,
+                            .shared_limit = limits->shared_limit};
     if (brings_more(scene, &share)) {
         Continuation way;
         const ReceivedLight beyond =
