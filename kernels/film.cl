@@ -39,6 +39,38 @@ static inline void keep_light(global float* pixel) {
     }
 }
 
+/// What a receiver gets, W/m².
+typedef struct IrradianceOfSample {
+    float3 direct, indirect;
+} IrradianceOfSample;
+
+/// Adds the light that comes by one branch of a sample. Only light has the filter's weights. Surfaces are
+/// averaged over where the samples lie, so that no layer of them overshoots where the filter is negative.
+static inline void add_light(global float* pixel, const CameraVertex* vertex,
+                             const IrradianceOfSample* light) {
+    const float3 reflectance = load3(vertex->throughput) * load3(vertex->albedo);
+    const float weight = vertex->filter_weight;
+    const float3 response = weight * reflectance / M_PI_F;
+    add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, weight * load3(vertex->emitted) + response * light->direct);
+    add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, weight * load3(vertex->traced) + response * light->indirect);
+    add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
+}
+
+/// Adds what the first branch of a sample saw.
+static inline void add_surface(global float* pixel, const CameraVertex* vertex,
+                               const global ReceiverPacket* receiver, uint lane) {
+    add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
+               (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
+    if (is_better_depth(pixel[NEARLIGHT_SUM_DEPTH], vertex)) {
+        store_channels(pixel + NEARLIGHT_SUM_POSITION,
+                       (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]));
+        pixel[NEARLIGHT_SUM_DEPTH] =
+            vertex->flags & NEARLIGHT_VERTEX_OWN_PIXEL ? vertex->depth : -vertex->depth;
+    }
+    pixel[NEARLIGHT_SUM_CLOSE_RANGE] += vertex->flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
+    pixel[NEARLIGHT_SUM_ALPHA] += vertex->depth > 0.0f ? 1.0f : 0.0f;
+}
+
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
                      const global IrradiancePacket* restrict direct,
@@ -57,39 +89,21 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     const uint column = tile_of_pixel(x, order.bundle_columns, order.interleave);
     const uint row = tile_of_pixel(y, order.bundle_rows, order.interleave);
     global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
-    for (uint i = 0; i < order.sample_count * order.branch_count; ++i) {
-        const uint branch = i % order.branch_count;
-        const uint packet = packet_at(order, column, row, i / order.branch_count, branch);
-        const global ReceiverPacket* receiver = receivers + packet;
-        const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
-        const float3 reflectance = load3(vertex.throughput) * load3(vertex.albedo);
-        const float weight = vertex.filter_weight;
-        const float3 response = weight * reflectance / M_PI_F;
-        add_to_sum(pixel + NEARLIGHT_SUM_DIRECT,
-                   weight * load3(vertex.emitted) + response * irradiance_of(direct + packet, lane));
-        add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
-                   weight * load3(vertex.traced) + response * (irradiance_of(gathered + packet, lane) +
-                                                               irradiance_of(indirect + packet, lane)));
-        // Only light has the filter's weights. Surfaces are averaged over where the samples lie, so that no
-        // layer of them overshoots where the filter is negative.
-        add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
-        const uint samples_before = first_sample + i / order.branch_count;
-        if (samples_before < samples_per_pixel / 2) {
-            keep_light(pixel);
+    for (uint sample = 0; sample < order.sample_count; ++sample) {
+        for (uint branch = 0; branch < order.branch_count; ++branch) {
+            const uint packet = packet_at(order, column, row, sample, branch);
+            const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
+            const IrradianceOfSample light = {irradiance_of(direct + packet, lane),
+                                              irradiance_of(gathered + packet, lane) +
+                                                  irradiance_of(indirect + packet, lane)};
+            add_light(pixel, &vertex, &light);
+            if (first_sample + sample < samples_per_pixel / 2) {
+                keep_light(pixel);
+            }
+            if (branch == 0) {
+                add_surface(pixel, &vertex, receivers + packet, lane);
+            }
         }
-        if (branch != 0) {
-            continue;  // geometry layers come from branch 0 only
-        }
-        add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
-                   (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
-        if (is_better_depth(pixel[NEARLIGHT_SUM_DEPTH], &vertex)) {
-            store_channels(pixel + NEARLIGHT_SUM_POSITION,
-                           (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]));
-            pixel[NEARLIGHT_SUM_DEPTH] =
-                vertex.flags & NEARLIGHT_VERTEX_OWN_PIXEL ? vertex.depth : -vertex.depth;
-        }
-        pixel[NEARLIGHT_SUM_CLOSE_RANGE] += vertex.flags & NEARLIGHT_VERTEX_CLOSE ? 1.0f : 0.0f;
-        pixel[NEARLIGHT_SUM_ALPHA] += vertex.depth > 0.0f ? 1.0f : 0.0f;
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of lamps, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
+// The tree of lights, by which kernels choose a light for a receiver [Conty Estévez & Kulla,
 // Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018].
 #pragma once
 

@@ -104,6 +104,12 @@ static inline float2 coordinates_for(const SceneView* scene, const global Textur
            hit->weights.x * scene->second_uvs[triangle.v1] + hit->weights.y * scene->second_uvs[triangle.v2];
 }
 
+/// Where a texture lies on texture coordinates: its own point (s, t).
+static inline float2 place_on_texture(const global Texture* texture, float2 uv) {
+    return (float2)(texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset,
+                    texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset);
+}
+
 /// The colour of a bitmap at texture coordinates of its own, for lights that send an image; white for any
 /// other texture.
 static inline float3 texture_color(const SceneView* scene, uint index, float2 uv) {
@@ -111,9 +117,8 @@ static inline float3 texture_color(const SceneView* scene, uint index, float2 uv
     if (texture->kind != NEARLIGHT_TEXTURE_BITMAP) {
         return (float3)(1.0f);
     }
-    const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
-    const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
-    return look_up_bitmap(scene, texture, s, t).color;
+    const float2 st = place_on_texture(texture, uv);
+    return look_up_bitmap(scene, texture, st.x, st.y).color;
 }
 
 /// The value of a parameter at the point.
@@ -126,11 +131,9 @@ static inline TextureValue look_up(const SceneView* scene, const global Paramete
                                                              NEARLIGHT_TEXTURE_TWO_NUMBERS) != 0;
     for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
-        const float2 uv = coordinates_for(scene, texture, hit);
-        const float s = texture->u_scale * uv.x + texture->u_shear * uv.y + texture->u_offset;
-        const float t = texture->v_shear * uv.x + texture->v_scale * uv.y + texture->v_offset;
+        const float2 st = place_on_texture(texture, coordinates_for(scene, texture, hit));
         if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
-            texel = look_up_bitmap(scene, texture, s, t);
+            texel = look_up_bitmap(scene, texture, st.x, st.y);
             if (texture->cutoff > 0.0f) {
                 texel.color = (float3)(texel.color.x >= texture->cutoff ? 1.0f : 0.0f);
             }
@@ -143,7 +146,7 @@ static inline TextureValue look_up(const SceneView* scene, const global Paramete
             texel.color = interpolated_color(scene, hit);
             break;
         }
-        const bool same = (s - floor(s) > 0.5f) == (t - floor(t) > 0.5f);
+        const bool same = (st.x - floor(st.x) > 0.5f) == (st.y - floor(st.y) > 0.5f);
         parameter = same ? &texture->color0 : &texture->color1;
         field *= load3(parameter->value);
     }

@@ -83,6 +83,23 @@ typedef struct Material {
     float internal_reflectance;
 } Material;
 
+// The parameters of a material in the order of its members.
+#define NEARLIGHT_PARAMETER_REFLECTANCE 0u
+#define NEARLIGHT_PARAMETER_SPECULAR 1u
+#define NEARLIGHT_PARAMETER_TRANSMISSION 2u
+#define NEARLIGHT_PARAMETER_ROUGHNESS 3u
+#define NEARLIGHT_PARAMETER_EMISSION 4u
+#define NEARLIGHT_PARAMETER_METALLIC 5u
+#define NEARLIGHT_PARAMETER_ANISOTROPIC 6u
+#define NEARLIGHT_PARAMETER_SPEC_TRANS 7u
+#define NEARLIGHT_PARAMETER_SPEC_TINT 8u
+#define NEARLIGHT_PARAMETER_SHEEN 9u
+#define NEARLIGHT_PARAMETER_SHEEN_TINT 10u
+#define NEARLIGHT_PARAMETER_FLATNESS 11u
+#define NEARLIGHT_PARAMETER_CLEARCOAT 12u
+#define NEARLIGHT_PARAMETER_CLEARCOAT_GLOSS 13u
+#define NEARLIGHT_PARAMETER_COUNT 14u
+
 /// A transmission curve has this many values, at the cosines i / (NEARLIGHT_CURVE_SIZE − 1), and is linear
 /// between them.
 #define NEARLIGHT_CURVE_SIZE 64

@@ -303,6 +303,10 @@ NEARLIGHT_CHECK_SHARED(Vertex, 32);
 NEARLIGHT_CHECK_SHARED(Triangle, 16);
 NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
+static_assert(offsetof(Material, roughness) == NEARLIGHT_PARAMETER_ROUGHNESS * sizeof(Parameter) &&
+                  offsetof(Material, metallic) == NEARLIGHT_PARAMETER_METALLIC * sizeof(Parameter) &&
+                  offsetof(Material, clearcoat_gloss) == NEARLIGHT_PARAMETER_CLEARCOAT_GLOSS * sizeof(Parameter),
+              "parameters are numbered in the order of the members");
 NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
 NEARLIGHT_CHECK_SHARED(Vpl, 48);

@@ -113,45 +113,45 @@ static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
     s->frame.n = frame_to_world(&frame, tilted.n);
 }
 
-/// Makes parameter `index` of a material (counted from `reflectance`) part of the BSDF. Textures of numbers
-/// may leave the range from 0 to 1, which the models rely on.
-static inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* value) {
+/// Makes a parameter of a material part of the BSDF. Textures of numbers may leave the range from 0 to 1, which
+/// the models rely on.
+static inline void set_parameter(Bsdf* bsdf, uint parameter, const TextureValue* value) {
     const float2 number = clamp(value->number, 0.0f, 1.0f);
-    switch (index) {
-        case 0:
+    switch (parameter) {
+        case NEARLIGHT_PARAMETER_REFLECTANCE:
             bsdf->base = value->color;
             break;
-        case 1:
+        case NEARLIGHT_PARAMETER_SPECULAR:
             bsdf->specular = value->color;
             break;
-        case 2:
+        case NEARLIGHT_PARAMETER_TRANSMISSION:
             bsdf->transmission = bsdf->model == NEARLIGHT_BSDF_PRINCIPLED ? (float3)(number.x) : value->color;
             break;
-        case 3:
+        case NEARLIGHT_PARAMETER_ROUGHNESS:
             bsdf->alpha = number;
             break;
-        case 5:
+        case NEARLIGHT_PARAMETER_METALLIC:
             bsdf->metallic = number.x;
             break;
-        case 6:
+        case NEARLIGHT_PARAMETER_ANISOTROPIC:
             bsdf->anisotropic = number.x;
             break;
-        case 7:
+        case NEARLIGHT_PARAMETER_SPEC_TRANS:
             bsdf->spec_trans = number.x;
             break;
-        case 8:
+        case NEARLIGHT_PARAMETER_SPEC_TINT:
             bsdf->spec_tint = number.x;
             break;
-        case 9:
+        case NEARLIGHT_PARAMETER_SHEEN:
             bsdf->sheen = number.x;
             break;
-        case 10:
+        case NEARLIGHT_PARAMETER_SHEEN_TINT:
             bsdf->sheen_tint = number.x;
             break;
-        case 11:
+        case NEARLIGHT_PARAMETER_FLATNESS:
             bsdf->flatness = number.x;
             break;
-        case 12:
+        case NEARLIGHT_PARAMETER_CLEARCOAT:
             bsdf->clearcoat = number.x;
             break;
         default:
@@ -159,23 +159,27 @@ static inline void set_parameter(Bsdf* bsdf, uint index, const TextureValue* val
     }
 }
 
-/// Which parameters a model uses: bit i stands for parameter i, counted from `reflectance`.
+#define USES(parameter) (1u << NEARLIGHT_PARAMETER_##parameter)
+
+/// Which parameters a model uses: bit i stands for the one of the number i.
 static inline uint used_parameters(uint model) {
     switch (model) {
         case NEARLIGHT_BSDF_PLASTIC:
-            return 0xbu;
+            return USES(REFLECTANCE) | USES(SPECULAR) | USES(ROUGHNESS);
         case NEARLIGHT_BSDF_CONDUCTOR:
-            return 0xau;
+            return USES(SPECULAR) | USES(ROUGHNESS);
         case NEARLIGHT_BSDF_DIELECTRIC:
-            return 0xeu;
+            return USES(SPECULAR) | USES(TRANSMISSION) | USES(ROUGHNESS);
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
-            return 0x6u;
+            return USES(SPECULAR) | USES(TRANSMISSION);
         case NEARLIGHT_BSDF_PRINCIPLED:
-            return 0x3fedu;
+            return USES(REFLECTANCE) | USES(TRANSMISSION) | USES(ROUGHNESS) | USES(METALLIC) | USES(ANISOTROPIC) |
+                   USES(SPEC_TRANS) | USES(SPEC_TINT) | USES(SHEEN) | USES(SHEEN_TINT) | USES(FLATNESS) |
+                   USES(CLEARCOAT) | USES(CLEARCOAT_GLOSS);
         case NEARLIGHT_BSDF_NULL:
             return 0u;
         default:  // diffuse, and models that stand for others
-            return 1u;
+            return USES(REFLECTANCE);
     }
 }
 
@@ -298,7 +302,7 @@ static inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, S
     s->bsdf.base = reflectance;
     const uint used = used_parameters(material->model);
 #pragma unroll 1
-    for (uint i = 1; i < 14; ++i) {
+    for (uint i = 1; i < NEARLIGHT_PARAMETER_COUNT; ++i) {
         if (used >> i & 1u) {
             const TextureValue value = look_up(scene, &material->reflectance + i, hit);
             set_parameter(&s->bsdf, i, &value);

@@ -140,6 +140,14 @@ static inline float distant_pdf(const SceneView* scene, const LightReceiver* at,
     return pdf;
 }
 
+/// A sample of a lamp that was chosen with this probability.
+static inline LightSample sample_of_lamp(const SceneView* scene, const LightReceiver* at, uint index,
+                                         float probability, float2 u) {
+    LightSample sample = sample_emitter(scene, index, at->x, u);
+    sample.pdf *= probability;
+    return sample;
+}
+
 /// A sample of the sky: of the map, and of the sun where the direction meets it.
 static inline LightSample sample_of_sky(const SceneView* scene, const LightReceiver* at,
                                         const MapSample* map) {
@@ -161,14 +169,12 @@ OUTLINED LightSample sample_light(const SceneView* scene, const LightReceiver* a
         return no_light(at->x);
     }
     const global Emitter* emitter = scene->emitters + index;
-    if (is_distant(emitter)) {
-        const MapSample map =
-            emitter->type == NEARLIGHT_EMITTER_SUN ? map_sample_towards_sun(scene, u) : sample_map(scene, u);
-        return sample_of_sky(scene, at, &map);
+    if (!is_distant(emitter)) {
+        return sample_of_lamp(scene, at, index, probability, u);
     }
-    LightSample sample = sample_emitter(scene, index, at->x, u);
-    sample.pdf *= probability;
-    return sample;
+    const MapSample map =
+        emitter->type == NEARLIGHT_EMITTER_SUN ? map_sample_towards_sun(scene, u) : sample_map(scene, u);
+    return sample_of_sky(scene, at, &map);
 }
 
 /// The density with which sample_light() picks the unit direction in which a ray from the receiver met `hit`,
@@ -216,13 +222,12 @@ static inline LightSample sample_light_or_cosine(const SceneView* scene, const L
     if (index == ~0u) {
         return no_light(at->x);
     }
-    if (!is_distant(scene->emitters + index)) {
-        LightSample light = sample_emitter(scene, index, at->x, u);
-        light.pdf *= probability;
-        return light;
+    const global Emitter* emitter = scene->emitters + index;
+    if (!is_distant(emitter)) {
+        return sample_of_lamp(scene, at, index, probability, u);
     }
     MapSample map;
-    if (scene->emitters[index].type == NEARLIGHT_EMITTER_SUN) {
+    if (emitter->type == NEARLIGHT_EMITTER_SUN) {
         map = map_sample_towards_sun(scene, u);
     } else if (choice.y < 0.5f) {
         map = map_sample_towards(scene, to_world_frame(square_to_cosine_hemisphere(u), at->n));
