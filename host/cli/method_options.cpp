@@ -23,15 +23,17 @@ void add_described_choice(CLI::App& command, const char* option, Value& value, c
 
 }  // namespace
 
-void add_sample_options(CLI::App& command, GatherSettings& gather) {
+void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot) {
     command.add_option("--spp", gather.samples_per_pixel, "Camera samples per pixel, for antialiasing")
         ->check(CLI::Range(1u, 65536u))
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option("--direct-samples", gather.direct_samples_per_pixel,
-                    "Shadow rays per pixel to area and environment lights (default: 16 to 128, chosen by a "
-                    "pilot)")
+        .add_option(
+            "--direct-samples", gather.direct_samples_per_pixel,
+            fmt::format("Shadow rays per pixel to area lights, the environment and the sun, and to point "
+                        "lights if there are many (default: {})",
+                        pilot == Pilot::runs ? "16 to 128, chosen by a pilot" : "32"))
         ->check(CLI::Range(1u, 1'000'000u))
         ->type_name("N");
 }
@@ -57,16 +59,19 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
         ->capture_default_str();
 }
 
-void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts) {
+void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot) {
     command
         .add_option("--range", texts.range,
                     "Distance from the camera at which the close range ends: scene units, or auto")
         ->type_name("R")
         ->capture_default_str();
     command
-        .add_option("--clamp-radius", texts.clamp_radius,
-                    "VPLs closer than R light a point as if they were at the distance R, and rays bring back "
-                    "the rest: scene units, or auto, which chooses the radius of least noise")
+        .add_option(
+            "--clamp-radius", texts.clamp_radius,
+            fmt::format(
+                "VPLs closer than R light a point as if they were at the distance R, and rays "
+                "bring back the rest: scene units, or auto, which {}",
+                pilot == Pilot::runs ? "chooses the radius of least noise" : "is a twentieth of the range"))
         ->type_name("R")
         ->capture_default_str();
     command

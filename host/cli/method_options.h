@@ -19,12 +19,15 @@ struct MethodTexts {
     std::string clamp_radius = "auto";
 };
 
+/// Whether the command has the time for a pilot, which chooses light samples and the clamp radius.
+enum class Pilot { runs, is_left_out };
+
 /// Adds --spp and --direct-samples.
-void add_sample_options(CLI::App& command, GatherSettings& gather);
+void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot);
 /// Adds --sampler, --policy, --vpls, --cuts, --vpl-set and --close-fraction.
 void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
 /// Adds --range, --clamp-radius, --compensate, --rays, --max-depth, --seed and --roulette.
-void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
+void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot);
 
 /// Puts the settled values into the settings. Throws Error(ErrorKind::invalid_argument) for a value out of
 /// range.

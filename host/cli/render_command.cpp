@@ -134,7 +134,7 @@ void add_render_command(CommandLine& line) {
         ->type_name("WxH+X+Y");
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
-    add_sample_options(command, options->settings.gather);
+    add_sample_options(command, options->settings.gather, Pilot::runs);
     command
         .add_option(
             "--strata", options->settings.gather.strata,
@@ -148,7 +148,7 @@ void add_render_command(CommandLine& line) {
     add_vpl_options(command, options->vpl_files);
     add_checkpoint_options(command, options->checkpoint);
     add_frame_options(command, options->frames);
-    add_method_options(command, options->settings, options->method);
+    add_method_options(command, options->settings, options->method, Pilot::runs);
     add_session_options(command, options->session);
     add_device_options(command, options->device);
     add_mpi_option(command, options->mpi);

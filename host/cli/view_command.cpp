@@ -270,9 +270,9 @@ void add_view_command(CommandLine& line) {
     add_screen_options(command, options->screen);
     add_window_options(command, *options);
     add_tev_option(command, options->tev);
-    add_sample_options(command, options->settings.gather);
+    add_sample_options(command, options->settings.gather, Pilot::is_left_out);
     add_sampler_options(command, options->settings, options->method);
-    add_method_options(command, options->settings, options->method);
+    add_method_options(command, options->settings, options->method, Pilot::is_left_out);
     add_device_options(command, options->device);
 }
 

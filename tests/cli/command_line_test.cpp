@@ -77,13 +77,6 @@ TEST(CommandLine, HelpShowsWhatStandsForAValue) {
     EXPECT_TRUE(contains(help, "--denoise   "));
 }
 
-TEST(CommandLine, HelpShowsWhatStandsForAValue) {
-    const std::string help = run_program("render --help").output;
-    EXPECT_TRUE(contains(help, "--frames A[:B] "));
-    EXPECT_TRUE(contains(help, "--vpls N [1000] "));
-    EXPECT_TRUE(contains(help, "--denoise   "));
-}
-
 TEST(CommandLine, WithoutCommandItTellsTheCommands) {
     const ProgramResult result = run_program("");
     EXPECT_EQ(result.exit_code, 2);
