@@ -252,7 +252,8 @@ void add_compare_command(CommandLine& line) {
         "compare", "Compare VPL samplers on scenes: tables, plots and pictures in one report",
         [options](const GlobalOptions& global) { return run_compare(*options, global); });
     command
-        .add_option("SCENE", options->scenes, "Scenes: Mitsuba XML (.xml), glTF (.gltf, .glb) or OBJ (.obj)")
+        .add_option("SCENE", options->scenes,
+                    "Scenes: Mitsuba XML (.xml), glTF (.gltf, .glb), OBJ (.obj) or PLY (.ply)")
         ->required();
     add_shared_scene_options(command, options->scene);
     add_filter_option(command, options->scene.filter);

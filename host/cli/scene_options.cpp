@@ -18,7 +18,7 @@ void set_filter(const SceneOptions& options, SceneCamera& camera) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("SCENE", options.file,
-                    "Mitsuba XML (.xml), glTF 2.0 (.gltf, .glb) or OBJ with its MTL (.obj)")
+                    "Mitsuba XML (.xml), glTF 2.0 (.gltf, .glb), OBJ with its MTL (.obj) or PLY (.ply)")
         ->required();
     add_shared_scene_options(command, options);
 }

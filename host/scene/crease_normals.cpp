@@ -2,16 +2,25 @@
 #include "host/scene/crease_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
 
+#include "host/base/hash.h"
+
 namespace nearlight::core {
 namespace {
 
 constexpr uint kNone = ~0u;
+
+struct PlaceHash {
+    std::size_t operator()(const std::array<float, 3>& place) const {
+        return hash64(std::as_bytes(std::span(place)));
+    }
+};
 
 /// Sets of corners that have a normal in common. Corner 3·t + k is that of triangle t at its vertex k.
 class CornerSets {
@@ -139,6 +148,17 @@ class VertexSplitter {
 };
 
 }  // namespace
+
+std::vector<uint> places_of(std::span<const Vec3> positions) {
+    std::unordered_map<std::array<float, 3>, uint, PlaceHash> numbers;
+    std::vector<uint> places;
+    places.reserve(positions.size());
+    for (const Vec3 p : positions) {
+        places.push_back(
+            numbers.try_emplace({p.x, p.y, p.z}, static_cast<uint>(numbers.size())).first->second);
+    }
+    return places;
+}
 
 void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups) {
     const auto corners = static_cast<uint>(3 * mesh.triangles.size());

@@ -23,4 +23,7 @@ inline constexpr float kCreaseDegrees = 40.0f;
 /// has one for each triangle.
 void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups);
 
+/// A number for each position that those at the same place share.
+std::vector<uint> places_of(std::span<const Vec3> positions);
+
 }  // namespace nearlight::core

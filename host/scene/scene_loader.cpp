@@ -8,6 +8,7 @@
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj/obj_loader.h"
+#include "host/scene/ply_scene.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/vertex_colors.h"
 #include "nearlight/error.h"
@@ -32,7 +33,8 @@ struct Loader {
 constexpr Loader kLoaders[] = {{".xml", load_mitsuba_scene, true, false},
                                {".gltf", load_gltf_scene, false, true},
                                {".glb", load_gltf_scene, false, true},
-                               {".obj", load_obj_scene, false, false}};
+                               {".obj", load_obj_scene, false, false},
+                               {".ply", load_ply_scene, false, false}};
 
 void refuse_parameters(const std::filesystem::path& file, const LoadOptions& options) {
     if (!options.parameters.empty()) {
@@ -84,7 +86,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     const auto loader = std::ranges::find(kLoaders, extension, &Loader::extension);
     if (loader == std::end(kLoaders)) {
         throw Error(ErrorKind::file, file.string() + ": unknown scene format '" + extension +
-                                         "'; known ones are .xml (Mitsuba), .gltf, .glb and .obj");
+                                         "'; known ones are .xml (Mitsuba), .gltf, .glb, .obj and .ply");
     }
     if (!loader->has_parameters) {
         refuse_parameters(file, options);

@@ -35,7 +35,7 @@ struct LoadOptions {
 };
 
 /// Reads a scene in the format that its extension tells: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0),
-/// .obj. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds something
+/// .obj, .ply. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds something
 /// unknown, and Error(ErrorKind::invalid_argument) for a camera, a parameter or an animation that is not
 /// there, or as apply_overrides().
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});

@@ -73,7 +73,7 @@ struct SceneNote {
 /// that was moved from can only be assigned to and destroyed.
 class NEARLIGHT_API Scene {
   public:
-    /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0) or .obj; names of
+    /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj or .ply; names of
     /// other files in it are relative to its folder. Throws Error: ErrorKind::file if a file is missing, is
     /// broken or has unknown content, or if `options.strict` forbids an approximation;
     /// ErrorKind::invalid_argument for a camera or a definition that is not there, or a number out of its

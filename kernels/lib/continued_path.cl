@@ -5,6 +5,7 @@
 #define NEARLIGHT_LIB_CONTINUED_PATH
 
 #include "lib/outlined.cl"
+#include "lib/path_numbers.cl"
 #include "lib/receiver_point.cl"
 #include "lib/shared_light.cl"
 #include "lib/shared_reflection.cl"
@@ -125,6 +126,8 @@ static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* 
     const bool is_near = surfaces < share->max_edges;
     const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
     float3 sum = (float3)(0.0f);
+    // With n = share->max_edges, m = way->max_edges and L(e) for the light over at most e edges, this is
+    // near·L(n) + far·(L(m) − L(n)) = (near − far)·L(n) + far·L(m).
 #pragma unroll 1
     for (uint length = 0; length < 2; ++length) {
         const float far_scale = has_far ? way->far_scale : 0.0f;
@@ -220,33 +223,6 @@ typedef struct ContinuedPath {
     float shared_limit;  // RayShare.shared_limit times that weight
     ReceivedLight light;
 } ContinuedPath;
-
-/// The random numbers of a path at one surface.
-typedef struct PathNumbers {
-    float model;  // for masks and blends
-    float way;
-    float lobe;  // within S
-    float2 direction;
-    float end;            // whether the path ends by chance
-    float goes_on, draw;  // for the bundle's paths
-    uint light_seed;
-} PathNumbers;
-
-static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
-    const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
-    const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));
-    const uint4 of_bundle = random_uint4(more ^ 0xd4a35u);
-    PathNumbers numbers;
-    numbers.model = to_unit_float(more.x);
-    numbers.way = to_unit_float(more.w);
-    numbers.lobe = to_unit_float(more.y);
-    numbers.direction = (float2)(to_unit_float(random.y), to_unit_float(random.z));
-    numbers.end = to_unit_float(more.z);
-    numbers.goes_on = to_unit_float(of_bundle.x);
-    numbers.draw = to_unit_float(of_bundle.y);
-    numbers.light_seed = random.w;
-    return numbers;
-}
 
 /// Adds the light of a lamp that the path met by chance, for the bundle or the receiver. Such light is rare
 /// and bright where light samples find none of it, as behind glass. So what exceeds the limit of a bundle's

@@ -65,7 +65,7 @@ void add_scenes(py::module_& module) {
 
     module.def("load", &load, py::arg("file"), py::arg("options") = py::none(),
                "load(file, options=None, **fields)\n--\n\n"
-               "Reads a scene by its extension: .xml (Mitsuba 0.5 to 3), .gltf, .glb or .obj.\n\n"
+               "Reads a scene by its extension: .xml (Mitsuba 0.5 to 3), .gltf, .glb, .obj or .ply.\n\n"
                "file: a path.\n"
                "options: LoadOptions; fields are theirs, as in load(file, strict=True).\n\n"
                "What is approximated is logged as a warning and listed in Scene.notes. Raises Error.");

@@ -21,7 +21,7 @@ inline constexpr int kAgreementSize = 32;
 inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
                              bool compensate, uint max_depth = 6) {
     SCOPED_TRACE(compensate ? "compensated" : "clamped");
-    constexpr uint kSeeds = 24;
+    constexpr uint kSeeds = 16;
     const Image truth = trace_paths(scene, {.width = kAgreementSize,
                                             .height = kAgreementSize,
                                             .spp = 512,

@@ -22,7 +22,7 @@ using namespace small_scenes;
 /// Of these radii, the first leaves almost all light to VPLs, and the second, as long as the scene is wide,
 /// leaves most of it to rays.
 constexpr std::array kRadii{0.02f, 2.0f};
-constexpr uint kRadiusSeeds = 24;
+constexpr uint kRadiusSeeds = 16;
 
 /// A block on the corner's floor, of two sides and the top.
 void add_block(Scene& scene, Vec3 at, float size, uint material) {

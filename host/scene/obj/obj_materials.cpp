@@ -6,6 +6,7 @@
 
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
+#include "host/scene/obj/mtl_entry.h"
 #include "host/scene/obj/mtl_file.h"
 #include "host/scene/scene_names.h"
 #include "host/scene/texture.h"
@@ -14,35 +15,7 @@
 namespace nearlight::core {
 namespace {
 
-Vec3 to_vec3(const tinyobj::real_t (&c)[3]) {
-    return {c[0], c[1], c[2]};
-}
-
-Vec3 clamped(Vec3 c) {
-    return min(max(c, {0, 0, 0}), {1, 1, 1});
-}
-
-// Whether the entry has the extension for physically based rendering.
-bool is_physically_based(const tinyobj::material_t& source) {
-    return source.roughness > 0 || source.metallic > 0 || !source.roughness_texname.empty() ||
-           !source.metallic_texname.empty();
-}
-
-// The illumination model 1 has no highlights, whatever Ks says.
-bool has_highlight(const tinyobj::material_t& source) {
-    return source.illum != 1 && !is_zero(clamped(to_vec3(source.specular)));
-}
-
-// The microfacets of Beckmann's distribution that are as rough as a highlight with the exponent Ns [Walter et
-// al., Microfacet Models for Refraction through Rough Surfaces, 2007].
-double alpha_of_exponent(double exponent) {
-    return std::sqrt(2.0 / (std::min(std::max(0.0, exponent), 1e6) + 2.0));
-}
-
-// The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
-double index_of(const tinyobj::material_t& source) {
-    return source.ior > 1.001f ? static_cast<double>(source.ior) : kUsualIndex;
-}
+using namespace mtl;
 
 // A material library's entry, and where notes of it point.
 struct MaterialSource {
@@ -60,36 +33,6 @@ struct TextureSource {
     const char* keyword;
 };
 
-/// Without its extension for physically based rendering, Blender writes the metalness as Ka.
-bool is_blenders_metal(const MaterialSource& source) {
-    return source.library.is_blenders && (source.entry.illum == 3 || source.entry.illum == 6);
-}
-
-/// Maya gives illum 4 to all materials. So that model alone makes no glass of a surface that has a colour of
-/// its own, an opacity of 1 and no index of refraction.
-bool is_glass(const MaterialSource& source) {
-    const tinyobj::material_t& entry = source.entry;
-    const bool is_opaque = entry.dissolve >= 1.0f && entry.ior <= 1.001f &&
-                           (!is_zero(to_vec3(entry.diffuse)) || !entry.diffuse_texname.empty());
-    return entry.illum == 7 || (entry.illum == 6 && !source.library.is_blenders) ||
-           (entry.illum == 4 && !is_opaque);
-}
-
-/// The colour with its largest component at 1, or white for black. Programs agree about the colour of Tf, but
-/// not whether a small one means dark or clear glass.
-Vec3 hue(Vec3 color) {
-    return is_zero(color) ? Vec3{1, 1, 1} : color / max_component(color);
-}
-
-bool is_mirror(const MaterialSource& source) {
-    return (source.entry.illum == 3 && !source.library.is_blenders) || source.entry.illum == 5;
-}
-
-/// The inverse of Blender's Ns = 1000·(1 − roughness)².
-float blenders_roughness(float exponent) {
-    return 1.0f - std::sqrt(std::clamp(exponent, 0.0f, 1000.0f) / 1000.0f);
-}
-
 /// Whether the texture of a bump map is a map of normals, as which Blender and others write them: its mean
 /// points out of the surface.
 bool is_map_of_normals(Vec3 mean) {
@@ -106,22 +49,14 @@ class ObjMaterials {
     // The index of the material.
     uint add(const MaterialSource& source) {
         warn_of_what_is_left_out(source);
-        uint made = is_glass(source) ? add_glass(source) : add_opaque(source);
-        if (!is_glass(source)) {
+        uint made =
+            is_glass(source.entry, source.library.is_blenders) ? add_glass(source) : add_opaque(source);
+        if (!is_glass(source.entry, source.library.is_blenders)) {
             made = add_normal_map(source, made);
             made = add_mask(source, made);
         }
         scene_.materials[made].emission = emission(source);
         return made;
-    }
-
-    /// With colours of vertices, the material is what they say.
-    uint add_grey() {
-        Material grey = diffuse_material({0.5f, 0.5f, 0.5f});
-        if (has_colors_) {
-            grey.reflectance = times_vertex_color(parameter_of(1.0f));
-        }
-        return add_two_sided(scene_, grey);
     }
 
   private:
@@ -151,10 +86,11 @@ class ObjMaterials {
         if (is_physically_based(source.entry)) {
             return add_two_sided(scene_, principled(source));
         }
-        if (is_mirror(source)) {
+        if (is_mirror(source.entry, source.library.is_blenders)) {
             return add_mirror(source);
         }
-        if (is_blenders_metal(source) || (source.library.is_blenders && has_highlight(source.entry))) {
+        if (is_blenders_metal(source.entry, source.library.is_blenders) ||
+            (source.library.is_blenders && has_highlight(source.entry))) {
             return add_two_sided(scene_, blenders_principled(source));
         }
         return add_two_sided(scene_, has_highlight(source.entry) ? plastic(source) : diffuse(source));
@@ -227,8 +163,9 @@ class ObjMaterials {
         Material material = principled_material(scene_, index_of(source.entry));
         material.reflectance = diffuse(source).reflectance;
         material.roughness = parameter_of(blenders_roughness(source.entry.shininess));
-        material.metallic =
-            parameter_of(is_blenders_metal(source) ? std::clamp(source.entry.ambient[0], 0.0f, 1.0f) : 0.0f);
+        material.metallic = parameter_of(is_blenders_metal(source.entry, source.library.is_blenders)
+                                             ? std::clamp(source.entry.ambient[0], 0.0f, 1.0f)
+                                             : 0.0f);
         return material;
     }
 
@@ -398,7 +335,7 @@ std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& 
                                 "material '" + name + "' is not defined; it is grey");
         }
         if (found == nullptr) {
-            indices.push_back(materials.add_grey());
+            indices.push_back(add_plain_surface(scene, !obj.mesh.colors.empty()));
         } else {
             const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
             const auto group = static_cast<uint>(indices.size());

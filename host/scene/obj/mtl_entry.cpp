@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj/mtl_entry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/material_model.h"
+
+namespace nearlight::core::mtl {
+
+bool is_physically_based(const tinyobj::material_t& entry) {
+    return entry.roughness > 0 || entry.metallic > 0 || !entry.roughness_texname.empty() ||
+           !entry.metallic_texname.empty();
+}
+
+bool has_highlight(const tinyobj::material_t& entry) {
+    return entry.illum != 1 && !is_zero(clamped(to_vec3(entry.specular)));
+}
+
+double index_of(const tinyobj::material_t& entry) {
+    return entry.ior > 1.001f ? static_cast<double>(entry.ior) : kUsualIndex;
+}
+
+bool is_blenders_metal(const tinyobj::material_t& entry, bool is_blenders) {
+    return is_blenders && (entry.illum == 3 || entry.illum == 6);
+}
+
+bool is_glass(const tinyobj::material_t& entry, bool is_blenders) {
+    const bool is_opaque = entry.dissolve >= 1.0f && entry.ior <= 1.001f &&
+                           (!is_zero(to_vec3(entry.diffuse)) || !entry.diffuse_texname.empty());
+    return entry.illum == 7 || (entry.illum == 6 && !is_blenders) || (entry.illum == 4 && !is_opaque);
+}
+
+bool is_mirror(const tinyobj::material_t& entry, bool is_blenders) {
+    return (entry.illum == 3 && !is_blenders) || entry.illum == 5;
+}
+
+double alpha_of_exponent(double exponent) {
+    return std::sqrt(2.0 / (std::min(std::max(0.0, exponent), 1e6) + 2.0));
+}
+
+float blenders_roughness(float exponent) {
+    return 1.0f - std::sqrt(std::clamp(exponent, 0.0f, 1000.0f) / 1000.0f);
+}
+
+Vec3 hue(Vec3 color) {
+    return is_zero(color) ? Vec3{1, 1, 1} : color / max_component(color);
+}
+
+}  // namespace nearlight::core::mtl

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/ply_scene.h"
+
+#include <algorithm>
+
+#include "host/image/color.h"
+#include "host/scene/crease_normals.h"
+#include "host/scene/default_view.h"
+#include "host/scene/material_model.h"
+#include "host/scene/mesh.h"
+#include "host/scene/named_choice.h"
+#include "host/scene/note_sink.h"
+#include "host/scene/ply_loader.h"
+
+namespace nearlight::core {
+namespace {
+
+/// Makes linear colours of what the file says: bytes, or numbers up to 1.
+void decode_colors(std::vector<Vec3>& colors) {
+    const bool are_bytes =
+        std::ranges::any_of(colors, [](Vec3 color) { return max_component(color) > 1.0f; });
+    for (Vec3& color : colors) {
+        const Vec3 encoded = are_bytes ? color / 255.0f : color;
+        color = {srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)};
+    }
+}
+
+}  // namespace
+
+Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    Scene scene;
+    scene.source = file;
+    scene.name = file.stem().string();
+    NoteSink notes(scene.notes, options.strict);
+    Mesh mesh = read_ply(file);
+    decode_colors(mesh.colors);
+    if (mesh.normals.empty()) {
+        add_crease_normals(mesh, places_of(mesh.positions),
+                           std::vector<uint>(mesh.triangles.size(), kSmoothByAngle));
+    }
+    const std::vector<uint> materials{add_plain_surface(scene, !mesh.colors.empty())};
+    append_mesh(scene, mesh, {.to_world = {}, .materials = materials}, notes);
+    choose_named(file, "camera", {}, options.camera);
+    add_default_camera(scene, notes);
+    if (!options.overrides.bring_light()) {
+        add_default_light(scene, true, notes);
+    }
+    scene.has_open_exposure = true;
+    return scene;
+}
+
+}  // namespace nearlight::core
