@@ -15,6 +15,8 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kNone = ~0u;
+/// How many triangles at one side are compared with each other. Surfaces have two there.
+constexpr std::size_t kMaxTogether = 8;
 
 struct PlaceHash {
     std::size_t operator()(const std::array<float, 3>& place) const {
@@ -50,16 +52,22 @@ struct Side {
     uint near_place, far_place;
     uint near_corner, far_corner;
 
+    [[nodiscard]] bool is_at(const Side& other) const {
+        return near_place == other.near_place && far_place == other.far_place;
+    }
     bool operator<(const Side& other) const {
         return std::tie(near_place, far_place, near_corner) <
                std::tie(other.near_place, other.far_place, other.near_corner);
     }
 };
 
-std::vector<Side> sides_of(const Mesh& mesh, std::span<const uint> places, std::span<const uint> groups) {
+/// The sides of all triangles that have an area and are not flat, those at the same places one after the
+/// other.
+std::vector<Side> sides_of(const Mesh& mesh, std::span<const uint> places, std::span<const uint> groups,
+                           std::span<const Vec3> face_normals) {
     std::vector<Side> sides;
     for (uint t = 0; t < mesh.triangles.size(); ++t) {
-        for (uint k = 0; k < 3 && groups[t] != kFlat; ++k) {
+        for (uint k = 0; k < 3 && groups[t] != kFlat && !is_zero(face_normals[t]); ++k) {
             Side side{.near_place = places[mesh.triangles[t][k]],
                       .far_place = places[mesh.triangles[t][(k + 1) % 3]],
                       .near_corner = 3 * t + k,
@@ -94,14 +102,15 @@ CornerSets joined_corners(const Mesh& mesh, std::span<const uint> places, std::s
                (groups[a] != kSmoothByAngle || dot(face_normals[a], face_normals[b]) > min_cosine);
     };
     CornerSets sets(3 * mesh.triangles.size());
-    const std::vector<Side> sides = sides_of(mesh, places, groups);
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        const Side& a = sides[i - 1];
-        const Side& b = sides[i];
-        if (a.near_place == b.near_place && a.far_place == b.far_place &&
-            is_smooth(a.near_corner / 3, b.near_corner / 3)) {
-            sets.join(a.near_corner, b.near_corner);
-            sets.join(a.far_corner, b.far_corner);
+    const std::vector<Side> sides = sides_of(mesh, places, groups, face_normals);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const Side& a = sides[i];
+        const std::size_t end = std::min(sides.size(), i + kMaxTogether);
+        for (std::size_t j = i + 1; j < end && a.is_at(sides[j]); ++j) {
+            if (is_smooth(a.near_corner / 3, sides[j].near_corner / 3)) {
+                sets.join(a.near_corner, sides[j].near_corner);
+                sets.join(a.far_corner, sides[j].far_corner);
+            }
         }
     }
     return sets;
@@ -153,9 +162,10 @@ std::vector<uint> places_of(std::span<const Vec3> positions) {
     std::unordered_map<std::array<float, 3>, uint, PlaceHash> numbers;
     std::vector<uint> places;
     places.reserve(positions.size());
-    for (const Vec3 p : positions) {
+    for (const Vec3 p : positions) {  // adding 0 makes −0 the same place as 0
         places.push_back(
-            numbers.try_emplace({p.x, p.y, p.z}, static_cast<uint>(numbers.size())).first->second);
+            numbers.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, static_cast<uint>(numbers.size()))
+                .first->second);
     }
     return places;
 }

@@ -9,6 +9,7 @@
 
 #include "host/scene/file_text.h"
 #include "host/scene/ply_file.h"
+#include "host/scene/polygon.h"
 
 namespace nearlight::core {
 namespace {
@@ -158,19 +159,20 @@ uint read_index(PlyReader& reader, PlyScalar type, const Mesh& mesh) {
     return static_cast<uint>(index);
 }
 
-/// Reads the list of a face's vertices and adds the face as a fan.
-void read_fan(PlyReader& reader, const PlyProperty& property, Mesh& mesh) {
+/// Reads the list of a face's vertices and adds the face's triangles.
+void read_face(PlyReader& reader, const PlyProperty& property, Mesh& mesh) {
     const double count = reader.read(property.count_type);
-    std::array<uint, 3> fan{};
+    std::vector<uint> face;
+    std::vector<Vec3> corners;
     for (int corner = 0; corner < count; ++corner) {
-        const uint index = read_index(reader, property.type, mesh);
-        if (corner < 2) {
-            fan[static_cast<std::size_t>(corner)] = index;
-            continue;
-        }
-        fan[2] = index;
-        mesh.triangles.push_back(fan);
-        fan[1] = index;
+        face.push_back(read_index(reader, property.type, mesh));
+        corners.push_back(mesh.positions[face.back()]);
+    }
+    if (face.size() < 3) {
+        return;
+    }
+    for (const auto& [a, b, c] : triangulate(corners)) {
+        mesh.triangles.push_back({face[a], face[b], face[c]});
     }
 }
 
@@ -183,7 +185,7 @@ void read_faces(PlyReader& reader, const PlyElement& element, std::string_view a
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];
             if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
-                read_fan(reader, property, mesh);
+                read_face(reader, property, mesh);
             } else if (columns.slots[p] >= 0) {
                 row[static_cast<std::size_t>(columns.slots[p])] =
                     static_cast<float>(reader.read(property.type));

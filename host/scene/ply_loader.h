@@ -9,7 +9,7 @@
 
 namespace nearlight::core {
 
-/// Reads positions, normals (nx, ny, nz), texture coordinates (u, v or s, t) and faces, which become fans;
+/// Reads positions, normals (nx, ny, nz), texture coordinates (u, v or s, t) and faces, which may be polygons of any shape;
 /// other elements and properties are skipped. Mesh::uvs are as in the file. `attribute` says which colours or
 /// numbers become Mesh::colors, if it is vertex_NAME, or Mesh::face_colors, if it is face_NAME: as Mitsuba
 /// writes them, one or three properties that are called NAME_ and one more character (x y z, r g b, 0 1 2 or

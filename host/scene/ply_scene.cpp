@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/ply_scene.h"
 
-#include <algorithm>
-
-#include "host/image/color.h"
 #include "host/scene/crease_normals.h"
 #include "host/scene/default_view.h"
 #include "host/scene/material_model.h"
@@ -11,29 +8,16 @@
 #include "host/scene/named_choice.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/ply_loader.h"
+#include "host/scene/vertex_colors.h"
 
 namespace nearlight::core {
-namespace {
-
-/// Makes linear colours of what the file says: bytes, or numbers up to 1.
-void decode_colors(std::vector<Vec3>& colors) {
-    const bool are_bytes =
-        std::ranges::any_of(colors, [](Vec3 color) { return max_component(color) > 1.0f; });
-    for (Vec3& color : colors) {
-        const Vec3 encoded = are_bytes ? color / 255.0f : color;
-        color = {srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)};
-    }
-}
-
-}  // namespace
-
 Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& options) {
     Scene scene;
     scene.source = file;
     scene.name = file.stem().string();
     NoteSink notes(scene.notes, options.strict);
     Mesh mesh = read_ply(file);
-    decode_colors(mesh.colors);
+    decode_display_colors(mesh.colors);
     if (mesh.normals.empty()) {
         add_crease_normals(mesh, places_of(mesh.positions),
                            std::vector<uint>(mesh.triangles.size(), kSmoothByAngle));

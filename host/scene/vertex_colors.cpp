@@ -2,7 +2,9 @@
 #include "host/scene/vertex_colors.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/image/color.h"
 #include "host/scene/material_model.h"
 #include "host/scene/mesh.h"
 
@@ -40,6 +42,19 @@ float vertex_color_scale(const Scene& scene, const Material& material) {
 }
 
 }  // namespace
+
+void decode_display_colors(std::span<Vec3> colors) {
+    const auto is_whole = [](Vec3 c) {
+        return c.x == std::floor(c.x) && c.y == std::floor(c.y) && c.z == std::floor(c.z);
+    };
+    const bool are_bytes =
+        std::ranges::all_of(colors, is_whole) &&
+        std::ranges::any_of(colors, [](Vec3 color) { return max_component(color) > 1.0f; });
+    for (Vec3& color : colors) {
+        const Vec3 encoded = are_bytes ? color / 255.0f : color;
+        color = {srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)};
+    }
+}
 
 void finish_vertex_colors(Scene& scene, NoteSink& notes) {
     std::vector<float> scales;

@@ -71,6 +71,23 @@ TEST_F(MitsubaMaterial, PlasticsAndTheirOldNames) {
     EXPECT_EQ(scene_.transmission_curves.size(), 2u * NEARLIGHT_CURVE_SIZE);
 }
 
+TEST_F(MitsubaMaterial, NamesMayHaveCapitals) {
+    EXPECT_EQ(load("roughconductor", text("distribution", "GGX")).flags & NEARLIGHT_MATERIAL_BECKMANN, 0u);
+    EXPECT_FLOAT_EQ(load("dielectric", text("int_ior", "BK7")).eta.x,
+                    load("dielectric", text("int_ior", "bk7")).eta.x);
+}
+
+TEST_F(MitsubaMaterial, AMediumAloneHasNoSurfaceInOldFiles) {
+    const auto model = [&](const std::string& version) {
+        const Scene scene = load_scene(files_.write(
+            "m.xml", "<scene version='" + version + "'>" +
+                         shape("rectangle", "<medium type='homogeneous' name='interior'/>") + "</scene>\n"));
+        return scene.materials.at(scene.triangles.at(0).material).model;
+    };
+    EXPECT_EQ(model("0.6.0"), NEARLIGHT_BSDF_NULL);
+    EXPECT_NE(model("3.0.0"), NEARLIGHT_BSDF_NULL);
+}
+
 TEST_F(MitsubaMaterial, ConductorsOfOldFilesAreCopper) {
     const std::string text =
         "<scene version='0.6.0'>" + shape("rectangle", "<bsdf type='conductor'/>") + "</scene>\n";

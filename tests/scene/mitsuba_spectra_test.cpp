@@ -55,6 +55,7 @@ TEST(Spectra, ColoursOfOldFiles) {
     EXPECT_NEAR(color("0.6.0", "<srgb name='intensity' value='#808080'/>"), kHalf, 3e-3f);
     EXPECT_NEAR(color("0.6.0", "<rgb name='intensity' value='0.5'/>"), 0.5f, 1e-6f);
     EXPECT_NEAR(color("0.6.0", "<rgb name='intensity' value='#808080'/>"), 128.0f / 255, 1e-4f);
+    EXPECT_FLOAT_EQ(color("0.6.0", "<spectrum name='intensity' value='2'/>"), 2.0f) << "white";
     EXPECT_NEAR(color("3.0.0", "<rgb name='intensity' value='#808080'/>"), kHalf, 3e-3f);
 }
 

@@ -258,6 +258,33 @@ TEST_F(ObjTextures, OptionsPlaceThem) {
     EXPECT_TRUE(has_note(scene_, "m.mtl:3: -mm and -t"));
 }
 
+TEST_F(ObjTextures, OptionsMayHaveOneOrTwoNumbers) {
+    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    const auto placed = [&](const std::string& options) {
+        const Material two_sided = load("Kd 0.5 0.5 0.5\nmap_Kd " + options + " a.exr\n");
+        return texture(scene_.materials[two_sided.child[0]].reflectance);
+    };
+    EXPECT_FLOAT_EQ(placed("-s 2 3").v_scale, 3.0f);
+    EXPECT_FLOAT_EQ(placed("-s 2").u_scale, 2.0f);
+    EXPECT_FLOAT_EQ(placed("-s 2").v_scale, 1.0f);
+    EXPECT_FLOAT_EQ(placed("-o 0.25 -s 4 2").u_offset, 0.25f);
+    EXPECT_FLOAT_EQ(placed("-o 0.25 -s 4 2").v_offset, 0.0f);
+}
+
+/// What tinyobjloader assumes where Kd is missing depends on the entries before.
+TEST_F(ObjTextures, WithoutKdATextureIsTheColour) {
+    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    const Material two_sided = load("map_Kd a.exr\n");
+    expect_near(scene_.materials[two_sided.child[0]].reflectance.value, {1, 1, 1});
+}
+
+TEST_F(ObjTextures, ATransparencyOfOneIsMeantAsAnOpacity) {
+    EXPECT_EQ(load("Kd 1 1 1\nTr 1\n").model, NEARLIGHT_BSDF_TWO_SIDED);
+    EXPECT_TRUE(has_note(scene_, "m.mtl:1: a transparency (Tr) of 1"));
+    EXPECT_EQ(load("Kd 1 1 1\nTr 0.25\n").model, NEARLIGHT_BSDF_MASK);
+    EXPECT_EQ(load("Kd 1 1 1\nd 0\n").model, NEARLIGHT_BSDF_MASK);
+}
+
 TEST_F(ObjTextures, OpacityIsTheAlphaOfImagesThatHaveSome) {
     write_image("leaf.exr", {"R", "G", "B", "A"}, {0.1f, 0.6f, 0.1f, 0.25f});
     write_image("grey.exr", {"R", "G", "B", "A"}, {0.75f, 0.75f, 0.75f, 1.0f});
@@ -284,6 +311,9 @@ TEST_F(ObjTextures, MapsOfNormalsCountAndHeightsAreLeftOut) {
     write_image("height.exr", {"R", "G", "B"}, {0.5f, 0.5f, 0.5f});
     EXPECT_EQ(load("norm normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
     EXPECT_EQ(load("map_Bump -bm 1.0 normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
+    write_image("tilted.exr", {"R", "G", "B"}, {0.6f, 0.5f, 0.9f});
+    const Material flatter = load("map_Bump -bm 0.5 tilted.exr\n");
+    EXPECT_NEAR(parameter_value(scene_, flatter.reflectance, 0, 0).x, 0.55f, 1e-3f);
     EXPECT_EQ(load("bump height.exr\n").model, NEARLIGHT_BSDF_TWO_SIDED);
     EXPECT_TRUE(has_note(scene_, "bump maps of OBJ materials are left out"));
 }

@@ -94,6 +94,38 @@ TEST(Obj, TextureCoordinatesDoNotCutSmoothSurfaces) {
     EXPECT_FLOAT_EQ(corner_normals(scene, 0)[2].y, corner_normals(scene, 2)[1].y);
 }
 
+/// A file may repeat a position for each face.
+TEST(Obj, FacesThatMeetAtThePlaceAreSmoothToo) {
+    const SceneFiles files;
+    const std::string text = folded(20);
+    const std::string faces = "v 0 0 0\nv 1 0 -0\nf 3 4 2 1\nf 7 8 6 5\n";
+    const Scene scene = load_obj(files, text.substr(0, text.find("f 3")) + faces);
+    expect_near(corner_normals(scene, 0)[2], corner_normals(scene, 2)[1]);
+    EXPECT_LT(corner_normals(scene, 0)[2].y, -0.1f);
+}
+
+/// Neither a triangle without an area nor the back of a face cuts a surface in two.
+TEST(Obj, OddTrianglesDoNotCutSmoothSurfaces) {
+    const SceneFiles files;
+    const std::string text = folded(20);
+    const std::string begin = text.substr(0, text.find("f 3"));
+    for (const char* const odd : {"f 1 2 2\n", "f 1 2 4 3\n"}) {
+        const Scene scene = load_obj(files, begin + "f 3 4 2 1\n" + odd + "f 1 2 6 5\n");
+        EXPECT_LT(corner_normals(scene, 0)[2].y, -0.1f) << odd;
+    }
+}
+
+TEST(Obj, LinesMayEndWithCarriageReturns) {
+    const SceneFiles files;
+    files.write("r.mtl", "newmtl a\rKd 0.1 0.2 0.3\rillum 1\r");
+    const Scene scene = load_obj(
+        files, "mtllib r.mtl\rv 0 0 0 1 0 0\rv 1 0 0 0 1 0\rv 0 1 0 0 0 1\rs 0\rusemtl a\rf 1 2 3\r");
+    EXPECT_EQ(scene.vertex_colors.size(), 3u);
+    const Material side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
+    expect_near(corner_normals(scene, 0)[0], {0, 0, 0});
+}
+
 TEST(Obj, LinesMayContinue) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\r\n 3 \\\n 4\n");
@@ -113,6 +145,11 @@ TEST(Obj, ColoursOfVerticesAreTheSurfaces) {
     EXPECT_EQ(scene.textures[static_cast<std::size_t>(side.reflectance.texture)].parameters.kind,
               NEARLIGHT_TEXTURE_VERTEX_COLOR);
     EXPECT_TRUE(load_obj(files, "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertex_colors.empty());
+    EXPECT_TRUE(load_obj(files, "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").vertex_colors.empty())
+        << "weights";
+    const Scene bytes = load_obj(files, "v 0 0 0 255 0 0\nv 1 0 0 0 128 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    expect_near(bytes.vertex_colors[0], {1, 0, 0});
+    EXPECT_NEAR(bytes.vertex_colors[1].y, 0.2159f, 1e-4f);
 }
 
 }  // namespace

@@ -43,6 +43,21 @@ TEST(PlyScene, ColoursOfVerticesAreSrgb) {
     };
     expect_near(first_color("uchar", "255 128 0"), {1, 0.2158605f, 0}, 1e-4f);
     expect_near(first_color("float", "1 0.5 0"), {1, 0.2140411f, 0}, 1e-4f);
+    EXPECT_GT(first_color("float", "1.001 0.5 0").y, 0.2f) << "a little over 1 makes no bytes of them";
+}
+
+TEST(PlyScene, PolygonsThatAreNotConvexAreNotFilled) {
+    const SceneFiles files;
+    std::string header = kHeader;
+    header.replace(header.find("vertex 3"), 8, "vertex 5");
+    const Scene scene = load_scene(
+        files.write("n.ply", header + kFace + "0 0 0\n2 0 0\n2 2 0\n1 0.5 0\n0 2 0\n5 0 1 2 3 4\n"));
+    float area = 0;
+    for (const Triangle& t : scene.triangles) {
+        const Vec3 a = scene.vertices[t.v0].position;
+        area += 0.5f * length(cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a));
+    }
+    EXPECT_FLOAT_EQ(area, 2.5f);
 }
 
 /// Corners at the same place are one, also where the file has them once for each face.

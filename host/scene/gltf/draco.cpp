@@ -2,6 +2,9 @@
 // KHR_draco_mesh_compression.
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/scene/gltf/draco_codec.h"
 #include "host/scene/gltf/primitive_data.h"
 
@@ -19,6 +22,29 @@ const DracoCodec* draco_codec() {
                                                                 : dlsym(module, "nearlight_draco_codec"));
     }();
     return codec;
+}
+
+/// Many encoders leave it to the accessor to say that whole numbers stand for those up to 1.
+void normalize(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
+               std::vector<float>& numbers) {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) {
+        return;
+    }
+    const tinygltf::Accessor& accessor = file.at(file.model.accessors, found->second, "accessor", name);
+    const int type = accessor.componentType;
+    const float most = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 255.0f
+                       : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 65535.0f
+                       : type == TINYGLTF_COMPONENT_TYPE_BYTE           ? 127.0f
+                       : type == TINYGLTF_COMPONENT_TYPE_SHORT          ? 32767.0f
+                                                                        : 1.0f;
+    const bool are_whole = std::ranges::any_of(numbers, [](float number) { return std::abs(number) > 1.0f; });
+    if (!accessor.normalized || !are_whole) {
+        return;
+    }
+    for (float& number : numbers) {
+        number = std::max(number / most, -1.0f);
+    }
 }
 
 }  // namespace
@@ -43,6 +69,7 @@ void decode_draco(const GltfFile& file, const tinygltf::Primitive& primitive,
         if (found == mesh.attributes.end()) {
             file.fail("a compressed mesh lacks its attribute " + name);
         }
+        normalize(file, primitive, name, found->second.numbers);
         attributes[name] = {found->second.numbers, found->second.components};
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/optics_tables.h"
 
+#include "host/scene/mitsuba/values.h"
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -98,7 +100,7 @@ std::optional<Metal> find_metal(const std::string& name) {
 
 std::optional<double> find_index_of_refraction(const std::string& name) {
     for (const auto& [known, index] : kIndices) {
-        if (known == name) {
+        if (known == lower_case(name)) {
             return index;
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/shape_maker.h"
 
+#include "host/scene/material_model.h"
 #include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/shape_mesh.h"
 #include "host/scene/obj/obj_file.h"
@@ -116,6 +117,11 @@ std::string ShapeMaker::name_of(const Object& shape, std::size_t number) const {
         number);
 }
 
+uint ShapeMaker::add_medium_boundary() {
+    scene_.materials.push_back(plain_material(NEARLIGHT_BSDF_NULL));
+    return static_cast<uint>(scene_.materials.size() - 1);
+}
+
 void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                             const std::string& instance) {
     const std::vector<const Object*> bsdfs = shape.nested("bsdf");
@@ -126,7 +132,11 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
         note(notes_, medium->where, kMediaAreLeftOut);
     }
     const Parameter emitted = emission(shape);
-    const uint material = materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
+    // In Mitsuba 0.5 and 0.6, a medium alone has no surface.
+    const bool is_medium = bsdfs.empty() && shape.is_old && !shape.nested("medium").empty();
+    const uint material = is_medium && is_zero(emitted.value)
+                              ? add_medium_boundary()
+                              : materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
     const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
     const std::size_t first_triangle = scene_.triangles.size();
     begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));

@@ -24,6 +24,8 @@ class ShapeMaker {
     /// Adds a shape that lies in `depth` merges.
     void add(const Object& shape, uint depth);
     /// Adds the shape as an object of its name, after that of the instance whose part it is.
+    /// The index of a material that light passes as if it was not there.
+    uint add_medium_boundary();
     void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                     const std::string& instance = {});
     [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/scene/mitsuba/optics_tables.h"
+#include "host/scene/mitsuba/values.h"
 #include "host/scene/number_pair.h"
 #include "host/scene/reflectance.h"
 
@@ -111,7 +112,7 @@ void SurfaceModels::read_microfacets(const Object& bsdf, Material& material) {
     if (!starts_with_rough(bsdf)) {
         return;
     }
-    const std::string distribution = bsdf.string("distribution", "beckmann");
+    const std::string distribution = lower_case(bsdf.string("distribution", "beckmann"));
     if (distribution == "phong" || distribution == "as") {
         note(notes_, bsdf.where,
              "the microfacet distribution '" + distribution + "' is replaced by Beckmann's");

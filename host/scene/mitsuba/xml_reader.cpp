@@ -201,9 +201,10 @@ class Reader {
             return read_spectrum(files_.find(element.text("filename"), element.where), element.where);
         }
         const std::string text = element.required("value");
-        // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB.
+        // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB, and one number for white light.
         const bool is_curve = text.find(':') != std::string::npos;
-        if (!is_curve && (split_words(text).size() > 1 || text.find('#') != std::string::npos)) {
+        const bool is_color = split_words(text).size() > 1 || text.find('#') != std::string::npos;
+        if (!is_curve && (is_color || element.is_old())) {
             return parse_rgb(text, element.where);
         }
         return parse_spectrum(text, element.where);

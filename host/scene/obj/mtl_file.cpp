@@ -6,6 +6,7 @@
 
 #include "host/base/words.h"
 #include "host/scene/file_text.h"
+#include "host/scene/number_text.h"
 #include "host/scene/obj/obj_extras.h"
 #include "nearlight/error.h"
 
@@ -35,6 +36,50 @@ void restore_names(MaterialLibrary& library) {
     }
 }
 
+bool is_number(const std::string& word) {
+    return number_in(word).has_value();
+}
+
+/// Gives the options -s, -o and -t of textures three numbers, where they have one or two, because
+/// tinyobjloader takes the name of the file for a missing one.
+void complete_options(std::string& text) {
+    std::string completed;
+    for_each_line(text, [&](int, std::string_view line) {
+        const bool is_map = line.find("map_") != std::string_view::npos || starts_with_word(line, "bump") ||
+                            starts_with_word(line, "norm");
+        if (!is_map || line.find(" -") == std::string_view::npos) {
+            completed.append(line).append("\n");
+            return true;
+        }
+        const std::vector<std::string> words = split(line, ' ');
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            completed += (i == 0 ? "" : " ") + words[i];
+            if (words[i] != "-s" && words[i] != "-o" && words[i] != "-t") {
+                continue;
+            }
+            const char* const rest = words[i] == "-s" ? " 1" : " 0";
+            std::size_t numbers = 0;
+            for (; numbers < 3 && i + 1 < words.size() && is_number(words[i + 1]); ++numbers) {
+                completed += " " + words[++i];
+            }
+            for (; numbers > 0 && numbers < 3; ++numbers) {
+                completed += rest;
+            }
+        }
+        completed += "\n";
+        return true;
+    });
+    text = std::move(completed);
+}
+
+/// Whether the text begins with "# Blender 3.3.1 MTL File": the exporter of Blender 3 and later. That of
+/// older versions wrote no number, and meant other things.
+bool is_new_blenders(std::string_view text) {
+    constexpr std::string_view kBeginning = "# Blender ";
+    return text.starts_with(kBeginning) && text.size() > kBeginning.size() &&
+           text[kBeginning.size()] >= '0' && text[kBeginning.size()] <= '9';
+}
+
 /// Empty if the file cannot be read.
 std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
     MaterialLibrary library;
@@ -44,8 +89,9 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
     } catch (const Error&) {
         return std::nullopt;
     }
-    library.is_blenders = library.text.starts_with("# Blender");
-    join_continued_lines(library.text);
+    library.is_blenders = is_new_blenders(library.text);
+    tidy_lines(library.text);
+    complete_options(library.text);
     TextBuffer buffer(library.text);
     std::istream stream(&buffer);
     std::string warning;

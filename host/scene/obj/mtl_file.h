@@ -23,7 +23,7 @@ struct MaterialLibrary {
     std::unordered_map<std::string, TextLine> lines;  ///< where materials begin
     std::map<std::string, int> names;                 ///< indices into `materials`
     std::vector<tinyobj::material_t> materials;
-    /// Blender's exporter gives Ns, Ka and Ks meanings of their own.
+    /// The exporter of Blender 3 and later gives Ns and Ka meanings of their own.
     bool is_blenders = false;
 };
 

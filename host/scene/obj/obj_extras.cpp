@@ -3,43 +3,54 @@
 
 #include <array>
 #include <charconv>
+#include <optional>
 
-#include "host/image/color.h"
 #include "host/scene/obj/obj_text.h"
+#include "host/scene/vertex_colors.h"
 
 namespace nearlight::core {
 namespace {
 
-/// The numbers of a line behind its first word, at most seven; those behind the first that is none do not
-/// count.
-std::size_t read_numbers(std::string_view line, std::array<float, 7>& numbers) {
-    const char* at = line.data() + std::min(line.find_first_of(" \t"), line.size());
+/// The six numbers of `v x y z r g b`; with a weight there are four or seven.
+std::optional<std::array<float, 6>> numbers_of_colored_vertex(std::string_view line) {
+    std::array<float, 6> numbers{};
+    const char* at = line.data() + line.find('v') + 1;
     const char* const end = line.data() + line.size();
-    std::size_t count = 0;
-    while (count < numbers.size()) {
-        while (at != end && (*at == ' ' || *at == '\t' || *at == '+')) {
+    const auto skip_blanks = [&] {
+        while (at != end && (*at == ' ' || *at == '\t' || *at == '+' || *at == '\r')) {
             ++at;
         }
-        const auto [after, error] = std::from_chars(at, end, numbers[count]);
+    };
+    for (float& number : numbers) {
+        skip_blanks();
+        const auto [after, error] = std::from_chars(at, end, number);
         if (error != std::errc()) {
-            break;
+            return std::nullopt;
         }
         at = after;
-        ++count;
     }
-    return count;
+    skip_blanks();
+    return at == end ? std::optional(numbers) : std::nullopt;
 }
 
 uint group_of(const std::string& word) {
+    if (word == "off" || word == "null") {
+        return 0;
+    }
     uint group = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), group);
     // Some programs write "on", which is a group too.
-    return error == std::errc() ? group : word == "off" || word == "null" ? 0 : 1;
+    return error == std::errc() ? group : 1;
 }
 
 }  // namespace
 
-void join_continued_lines(std::string& text) {
+void tidy_lines(std::string& text) {
+    for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1)) {
+        if (at + 1 == text.size() || text[at + 1] != '\n') {
+            text[at] = '\n';
+        }
+    }
     std::string joined;
     std::size_t taken = 0;
     std::size_t missing = 0;  // line ends that were taken out
@@ -79,15 +90,19 @@ std::vector<Vec3> vertex_colors(std::string_view text) {
     bool has_all = true;
     for_each_line(text, [&](int, std::string_view line) {
         if (starts_with_word(line, "v")) {
-            line.remove_prefix(line.find('v'));
-            std::array<float, 7> numbers{};
-            has_all = read_numbers(line, numbers) == 6;
-            colors.push_back(
-                {srgb_to_linear(numbers[3]), srgb_to_linear(numbers[4]), srgb_to_linear(numbers[5])});
+            const std::optional<std::array<float, 6>> numbers = numbers_of_colored_vertex(line);
+            has_all = numbers.has_value();
+            if (has_all) {
+                colors.push_back({(*numbers)[3], (*numbers)[4], (*numbers)[5]});
+            }
         }
         return has_all;
     });
-    return has_all ? colors : std::vector<Vec3>{};
+    if (!has_all) {
+        return {};
+    }
+    decode_display_colors(colors);
+    return colors;
 }
 
 }  // namespace nearlight::core

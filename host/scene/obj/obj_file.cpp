@@ -85,7 +85,7 @@ class ObjBuilder {
             obj_.mesh.normals.clear();
         }
         if (!any_normal_ && use_ == ObjUse::scene) {
-            add_crease_normals(obj_.mesh, places_, smoothing_);
+            add_crease_normals(obj_.mesh, places_of(obj_.mesh.positions), smoothing_);
         }
     }
 
@@ -178,10 +178,7 @@ class ObjBuilder {
         obj_.mesh.uvs.push_back(t == kNone ? std::array<float, 2>{0, 0} : uvs[t]);
         obj_.mesh.normals.push_back(n == kNone ? Vec3{0, 0, 0} : normals[n]);
         if (!colors_.empty()) {
-            obj_.mesh.colors.push_back(colors_[p]);
-        }
-        if (use_ == ObjUse::scene) {
-            places_.push_back(p);
+            obj_.mesh.colors.push_back(p < colors_.size() ? colors_[p] : kNoColor);
         }
         any_uv_ = any_uv_ || t != kNone;
         any_normal_ = any_normal_ || n != kNone;
@@ -193,7 +190,6 @@ class ObjBuilder {
     std::vector<Vec3> colors_;  // of positions
     std::vector<SmoothingRun> smoothing_runs_;
     std::size_t next_run_ = 0;
-    std::vector<uint> places_;     // of the mesh's vertices: the file's positions
     std::vector<uint> smoothing_;  // of triangles: groups
     std::vector<uint> face_;       // the vertices of the current face
     std::vector<Vec3> polygon_;    // and where they are
@@ -239,7 +235,7 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
-    join_continued_lines(obj.text);
+    tidy_lines(obj.text);
     for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
         obj.libraries.emplace(line.number, name);
     }

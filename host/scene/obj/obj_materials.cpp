@@ -64,6 +64,11 @@ class ObjMaterials {
         notes_.approximation(source.library.file, source.begin.number, what);
     }
 
+    /// Whether the entry has a line that begins with this word.
+    static bool says(const MaterialSource& source, const char* word) {
+        return find_in_block(source.library.text, source.begin, "newmtl", word, "") > 0;
+    }
+
     void warn_of_what_is_left_out(const MaterialSource& source) {
         if (!source.entry.displacement_texname.empty()) {
             approximate(source, "displacement maps of OBJ materials are left out");
@@ -199,8 +204,8 @@ class ObjMaterials {
                 material = diffuse_material({0.5f, 0.5f, 0.5f});
             } else {
                 material.reflectance.texture = texture;
-                // Many exporters leave Kd black beside a texture, which then alone gives the colour.
-                if (is_zero(material.reflectance.value)) {
+                // Many exporters leave Kd black or out beside a texture, which then alone gives the colour.
+                if (is_zero(material.reflectance.value) || !says(source, "Kd")) {
                     material.reflectance.value = {1, 1, 1};
                 }
             }
@@ -237,28 +242,44 @@ class ObjMaterials {
 
     uint add_normal_map(const MaterialSource& source, uint child) {
         const tinyobj::material_t& entry = source.entry;
-        const TexelRule rule{.gamma = 1.0f};
         if (!entry.normal_texname.empty()) {
-            const int map = load(source, {entry.normal_texname, entry.normal_texopt, "norm"}, rule);
+            const int map = load_normals(source, {entry.normal_texname, entry.normal_texopt, "norm"});
             return map < 0 ? child : add(normal_map_material(textured(map), child));
         }
         if (entry.bump_texname.empty()) {
             return child;
         }
-        const int map = load(source, {entry.bump_texname, entry.bump_texopt, "map_Bump"}, rule);
-        if (map >= 0 && is_map_of_normals(mean_value(scene_, textured(map)))) {
-            return add(normal_map_material(textured(map), child));
+        const TextureSource bump{entry.bump_texname, entry.bump_texopt, "map_Bump"};
+        const int heights = load(source, bump, {.gamma = 1.0f});
+        if (heights < 0) {
+            return child;
         }
-        if (map >= 0) {
+        if (!is_map_of_normals(mean_value(scene_, textured(heights)))) {
             approximate(source,
                         "bump maps of OBJ materials are left out, because their heights have no unit");
+            return child;
         }
-        return child;
+        return add(normal_map_material(textured(load_normals(source, bump)), child));
+    }
+
+    /// A map of normals, which -bm makes steeper or flatter.
+    int load_normals(const MaterialSource& source, const TextureSource& texture) {
+        const float steepness = texture.options.bump_multiplier;
+        return load(source, texture,
+                    {.gamma = 1.0f,
+                     .is_signed = std::abs(steepness) > 1.0f,
+                     .steepness_x = steepness,
+                     .steepness_y = steepness});
     }
 
     // Dissolves the material by `d` and `map_d`.
     uint add_mask(const MaterialSource& source, uint material) {
-        const float d = source.entry.dissolve;
+        float d = source.entry.dissolve;
+        if (d == 0.0f && !says(source, "d")) {
+            approximate(source,
+                        "a transparency (Tr) of 1 counts as an opacity, because many programs write it so");
+            d = 1.0f;
+        }
         Parameter opacity = parameter_of(std::clamp(d, 0.0f, 1.0f));
         if (!(d >= 0.0f && d <= 1.0f)) {
             approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
