@@ -10,6 +10,7 @@
 #include "host/cli/device_options.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/cli/pass_options.h"
 #include "host/cli/scene_options.h"
 
 namespace nearlight::core {
@@ -168,7 +169,7 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
         .add_option(
             "--roulette", options->roulette,
             "Threshold: nearlight's kernels also run with Russian roulette (see `nearlight render --help`)")
-        ->check(CLI::Range(0.0f, 1000.0f))
+        ->check(number_from(0, 1000))
         ->type_name("T");
     add_bvh_option(command, options->bvh);
     add_device_options(command, options->device);

@@ -12,6 +12,7 @@
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/cli/pass_options.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"
 #include "host/compare/comparison.h"
@@ -194,12 +195,12 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--clamp-radius", settings.clamp_radius,
                     "Clamp radius of all samplers and of the reference, in scene units")
-        ->check(CLI::Range(0.0f, 1e9f))
+        ->check(number_from(0, 1e9))
         ->type_name("R");
     command
         .add_option("--clamp-fraction", settings.clamp_fraction,
                     "Clamp radius as a fraction of the range (default: 0.025)")
-        ->check(CLI::Range(0.0f, 10.0f))
+        ->check(number_from(0, 10))
         ->type_name("F");
     command
         .add_option("--range", settings.range,

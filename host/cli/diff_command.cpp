@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/diff_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct LayerDifference {
     ImageDifference difference;
 };
 
+/// What `nearlight render` calls the picture itself.
+constexpr const char* kBeauty = "beauty";
+
 std::string name_of(const std::string& layer) {
     return layer.empty() ? "(picture)" : layer;
 }
@@ -32,7 +36,9 @@ std::string name_of(const std::string& layer) {
 /// The layers that the options name, or else all layers that both pictures have.
 std::vector<std::string> layers_to_compare(const DiffOptions& options, const Image& a, const Image& b) {
     if (!options.layers.empty()) {
-        return options.layers;
+        std::vector<std::string> layers = options.layers;
+        std::ranges::replace(layers, std::string(kBeauty), std::string());
+        return layers;
     }
     std::vector<std::string> layers;
     for (const std::string& layer : color_layers(a)) {

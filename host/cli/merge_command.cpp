@@ -17,6 +17,7 @@
 #include "host/cli/output.h"
 #include "host/cli/pass_list.h"
 #include "host/cli/picture_files.h"
+#include "host/cli/render_output.h"
 #include "host/cli/rendered_picture.h"
 #include "host/session/pass_average.h"
 #include "host/session/render.h"
@@ -184,8 +185,8 @@ Metadata merged_metadata(const Merged& merged, std::optional<double> error, cons
     metadata["nearlight:passSpp"] = pass_list_text(samples);
     metadata["nearlight:passRanges"] = ranges_text(record);
     metadata["nearlight:firstPass"] = static_cast<int>(record.whole.front().first);
-    metadata["nearlight:seed"] = static_cast<int>(record.whole.front().seed);
-    metadata["nearlight:vpls"] = static_cast<int>(record.totals.close_vpls + record.totals.distant_vpls);
+    metadata["nearlight:seed"] = count_value(record.whole.front().seed);
+    metadata["nearlight:vpls"] = count_value(record.totals.close_vpls + record.totals.distant_vpls);
     metadata.erase("nearlight:error");
     if (error) {
         metadata["nearlight:error"] = static_cast<float>(*error);

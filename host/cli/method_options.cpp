@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/cli/cuts_options.h"
+#include "host/cli/pass_options.h"
 #include "host/samplers/sampler.h"
 
 namespace nearlight::core {
@@ -105,7 +106,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
         .add_option("--roulette", settings.gather.roulette,
                     "Russian roulette: trace a VPL that could bring less than T times the mean only with a "
                     "probability; 0 traces all")
-        ->check(CLI::Range(0.0f, 1000.0f))
+        ->check(number_from(0, 1000))
         ->type_name("T")
         ->capture_default_str();
 }

@@ -184,6 +184,11 @@ void check_outputs(const PictureOptions& options) {
                         "unknown layer '" + layer + "'; choose from: " + joined(known, ", "));
         }
     }
+    const auto is_exr = [](const std::string& file) { return extension_of(file) == ".exr"; };
+    if (!options.layers.empty() && std::ranges::none_of(options.outputs, is_exr)) {
+        throw Error(ErrorKind::invalid_argument,
+                    "--layers asks for layers of EXR pictures, but no output is one; give -o FILE.exr");
+    }
     if (const std::vector<MatteLayer> mattes = matte_layers(options.layers);
         !mattes.empty() && options.compression == ExrCompression::dwaa) {
         throw Error(ErrorKind::invalid_argument,

@@ -25,6 +25,8 @@ constexpr double kSurePart = 0.15;
 /// It says something after this time and this much of the work, or after ten times as long.
 constexpr double kMeasuredSeconds = 1.0;
 constexpr double kMeasuredPart = 0.05;
+/// Of a fraction of the work, in steps.
+constexpr double kRounding = 1e-6;
 
 std::string minutes_and_seconds(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
@@ -39,28 +41,53 @@ double bounded(double fraction) {
 
 }  // namespace
 
-std::optional<double> TimeLeft::at(double fraction, double seconds) {
-    const News now{bounded(fraction), seconds};
-    first_ = first_.value_or(now);
-    if (!mark_ &&
-        (now.fraction >= first_->fraction + kIgnoredPart || seconds >= first_->seconds + kIgnoredSeconds)) {
-        mark_ = now;
+double TimeLeft::steps_begun(double fraction) const {
+    return std::clamp(std::ceil(fraction * steps_ - kRounding), 1.0, 1.0 * steps_);
+}
+
+/// Whether a step has just ended, and the next one may be silent.
+bool TimeLeft::is_between_steps(double fraction) const {
+    const double steps = fraction * steps_;
+    return steps > 0.5 && std::abs(steps - std::round(steps)) < kRounding;
+}
+
+void TimeLeft::note(double fraction, double seconds) {
+    if (!first_) {
+        silence_ = {fraction - std::floor(fraction * steps_ + kRounding) / steps_, seconds};
+        first_ = latest_ = {{fraction, seconds}, {}};
+        return;
     }
-    const bool is_sure = mark_ && now.fraction >= mark_->fraction + kSurePart;
-    const News& from = is_sure ? *mark_ : *first_;
-    // A step is silent for s = t - p·f seconds if the first news came after t seconds at the fraction f.
-    // Since `from`, k steps began, so that p·(fraction - from.fraction) + k·s seconds have passed.
-    const auto begun = [&](double part) { return std::clamp(std::ceil(part * steps_), 1.0, 1.0 * steps_); };
-    const double k = begun(now.fraction) - begun(from.fraction);
-    const double passed = now.fraction - from.fraction - k * first_->fraction;
-    const double elapsed = seconds - from.seconds;
-    const double needed = passed >= kMeasuredPart ? kMeasuredSeconds : 10.0 * kMeasuredSeconds;
-    if (passed <= 0.0 || elapsed < needed) {
+    const double before = latest_.done.fraction;
+    if (is_between_steps(before) || steps_begun(fraction) > steps_begun(before)) {
+        const Span gap{fraction - before, seconds - latest_.done.seconds};
+        silence_ = works_ ? gap : silence_ + gap;
+        latest_.silent = latest_.silent + gap;
+        works_ = false;
+    }
+    works_ = works_ || !is_between_steps(fraction);
+    latest_.done = {fraction, seconds};
+}
+
+std::optional<double> TimeLeft::at(double fraction, double seconds) {
+    if (steps_ == 0) {
         return std::nullopt;
     }
-    const double pace = std::max(0.0, elapsed - k * first_->seconds) / passed;
-    const double silence = std::max(0.0, first_->seconds - pace * first_->fraction);
-    return pace * (1.0 - now.fraction) + silence * (steps_ - begun(now.fraction));
+    note(bounded(fraction), seconds);
+    const Span& done = latest_.done;
+    if (!mark_ && (done.fraction >= first_->done.fraction + kIgnoredPart ||
+                   done.seconds >= first_->done.seconds + kIgnoredSeconds)) {
+        mark_ = latest_;
+    }
+    const bool is_sure = mark_ && done.fraction >= mark_->done.fraction + kSurePart;
+    const News& from = is_sure ? *mark_ : *first_;
+    const Span worked = done - from.done - (latest_.silent - from.silent);
+    const double needed = worked.fraction >= kMeasuredPart ? kMeasuredSeconds : 10.0 * kMeasuredSeconds;
+    if (worked.fraction <= 0.0 || worked.seconds < needed) {
+        return std::nullopt;
+    }
+    const double pace = worked.seconds / worked.fraction;
+    const double silence = std::max(0.0, silence_.seconds - pace * silence_.fraction);
+    return pace * (1.0 - done.fraction) + silence * (steps_ - steps_begun(done.fraction));
 }
 
 std::string progress_line(std::string_view label, double fraction, std::optional<double> seconds_left) {
@@ -99,7 +126,10 @@ void ProgressBar::update(double fraction, std::optional<double> seconds_left) {
         if (now - last_update_ >= kUpdateInterval) {
             last_update_ = now;
             visible_ = true;
-            const std::string line = progress_line(label_, fraction, seconds_left ? seconds_left : estimate);
+            const std::optional<double> left = estimate && seconds_left ? std::min(*estimate, *seconds_left)
+                                               : estimate               ? estimate
+                                                                        : seconds_left;
+            const std::string line = progress_line(label_, fraction, left);
             std::fprintf(stderr, "\r%s\033[K", line.c_str());
             std::fflush(stderr);
         }

@@ -19,21 +19,39 @@ std::string progress_line(std::string_view label, double fraction,
 /// first news of it, and a little after, has its own pace: a scene is looked at, and drivers compile.
 class TimeLeft {
   public:
-    /// The work consists of so many equal steps, each with as long a silence at its beginning as the first.
+    /// The work consists of so many equal steps. Each begins with a silence, which is as long as that of the
+    /// latest step was. With 0 steps nobody knows how much work there is, and there is no estimate.
     explicit TimeLeft(int steps = 1) : steps_(steps) {}
 
     /// `fraction` of the work, 0 to 1, is done, `seconds` after it began; both ascend. Returns the seconds
-    /// that are left, or nothing as long as that would be a guess.
+    /// that are left, or nothing as long as that would be a guess. The first fraction may be that of whole
+    /// steps which were done before.
     std::optional<double> at(double fraction, double seconds);
 
   private:
-    struct News {
+    /// A part of the work, and how long it took.
+    struct Span {
         double fraction = 0;
         double seconds = 0;
+
+        friend Span operator+(Span a, Span b) { return {a.fraction + b.fraction, a.seconds + b.seconds}; }
+        friend Span operator-(Span a, Span b) { return {a.fraction - b.fraction, a.seconds - b.seconds}; }
     };
+    /// What is done, and how much of it went by in silences that began steps.
+    struct News {
+        Span done;
+        Span silent;
+    };
+    [[nodiscard]] double steps_begun(double fraction) const;
+    [[nodiscard]] bool is_between_steps(double fraction) const;
+    void note(double fraction, double seconds);
+
     int steps_;
     std::optional<News> first_{};
     std::optional<News> mark_{};  ///< where the pace is measured from, once that says enough
+    News latest_{};
+    Span silence_{};      ///< of the latest step, with the work before its first news
+    bool works_ = false;  ///< whether that step has gone on beyond its silence
 };
 
 /// Shows a line on standard error if that is a terminal, updates it at most ten times a second, and removes
@@ -51,7 +69,7 @@ class ProgressBar {
     /// steps, see TimeLeft.
     void start(std::string label, int steps = 1);
     /// Shows that `fraction` of the work, 0 to 1, is done, and how long it still takes, which is estimated
-    /// unless the caller knows. It may be called at any rate.
+    /// and at most `seconds_left`. It may be called at any rate.
     void update(double fraction, std::optional<double> seconds_left = std::nullopt);
     /// Removes the line, so that other text can be written. The next update() shows it again.
     void clear();

@@ -124,15 +124,14 @@ void add_seconds(nlohmann::ordered_json& json, const RenderFacts& facts) {
     json["processor_seconds"] = {{"first_rows", facts.first_rows.processor_seconds}};
 }
 
-/// Whole numbers of pictures have 32 bits; greater ones are written as text.
+}  // namespace
+
 Metadata::mapped_type count_value(std::uint64_t count) {
     if (count <= std::uint64_t{std::numeric_limits<int>::max()}) {
         return static_cast<int>(count);
     }
     return std::to_string(count);
 }
-
-}  // namespace
 
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,
                          const RenderReport& report, const View& view,

@@ -2,6 +2,7 @@
 // The facts about its picture that `nearlight render` puts into the file, into JSON and on the terminal.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +16,9 @@
 #include "host/session/render.h"
 
 namespace nearlight::core {
+
+/// A number for metadata. Whole numbers of pictures have 32 bits; greater ones are written as text.
+Metadata::mapped_type count_value(std::uint64_t count);
 
 /// The EXR's attributes `nearlight:…` and those of its camera.
 Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, const RenderSettings& settings,

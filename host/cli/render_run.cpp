@@ -110,17 +110,17 @@ MatteSource mattes_of(Session& session, const RenderRun& run, const RenderReport
 /// How many passes a picture has, where limits of time or error do not decide it.
 int known_passes(const RenderSettings& settings) {
     const std::size_t listed = settings.pass_samples.size();
-    const bool is_open = settings.seconds || settings.error;
-    return listed > 0 ? static_cast<int>(listed)
-           : is_open  ? 1
-                      : static_cast<int>(settings.passes.value_or(1));
+    return listed > 0         ? static_cast<int>(listed)
+           : settings.error   ? 0
+           : settings.seconds ? 1
+                              : static_cast<int>(settings.passes.value_or(1));
 }
 
 /// Says how long an error will take, after the first pass only.
-ForecastSink tell_once(ProgressBar& bar, const RenderSettings& settings) {
-    return [&bar, &settings, told = false](const PassForecast& forecast) mutable {
+ForecastSink tell_once(ProgressBar& bar, std::string label, const RenderSettings& settings) {
+    return [&bar, &settings, label = std::move(label), told = false](const PassForecast& forecast) mutable {
         if (!std::exchange(told, true)) {
-            bar.clear();
+            bar.start(std::move(label), 1);
             tell_forecast(forecast, *settings.error);
         }
     };
@@ -270,7 +270,8 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     // The file of a frame says that it is finished, so none is there before.
     const PassWatcher watcher =
         run.frame ? PassWatcher() : [&](const PassesSoFar& so_far) { keeper.watch(so_far); };
-    RenderHooks hooks{.forecast = tell_once(bar, run.settings), .watcher = watcher, .vpls = start.vpls};
+    RenderHooks hooks{
+        .forecast = tell_once(bar, bar_label(run), run.settings), .watcher = watcher, .vpls = start.vpls};
     hooks.start = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
         save(run.options.vpl_files, session, view, vpls);
         sinks.open(run, started, view);
@@ -283,7 +284,9 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     };
     RenderReport report = render(session, run.settings, hooks, std::move(start.passes));
     bar.clear();
-    if (!run.frame || !report.interrupted) {
+    // Without any row, files that are there are better than black ones.
+    const bool has_rows = sinks.first_rows.seconds > 0.0 || !report.interrupted;
+    if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
         sinks.picture.commit(
             since_begin, false,
@@ -295,7 +298,11 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     if (run.global.verbose) {
         tell_kernel_times(run.devices);
     }
-    tell(run, report, sinks.picture.lacks_mattes(), keeper.has_checkpoint(), since_begin.seconds());
+    if (has_rows) {
+        tell(run, report, sinks.picture.lacks_mattes(), keeper.has_checkpoint(), since_begin.seconds());
+    } else {
+        spdlog::info("interrupted before the first rows; nothing was written");
+    }
     return {report, json_of(run, report, sinks, keeper.has_checkpoint())};
 }
 

@@ -11,6 +11,7 @@
 #include "host/base/hash.h"
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
+#include "host/cl/kernel_source.h"
 #include "host/compare/cost_model.h"
 #include "host/image/image_io.h"
 #include "nearlight/error.h"
@@ -25,7 +26,7 @@ std::string conditions_of(const Device& device, const SceneFacts& facts, const R
            exact_text(facts.range) + "|" + exact_text(facts.clamp_radius) + "|" +
            std::to_string(facts.max_depth) + "|" + hex_digits(identity(reference)) + "|" +
            device.entry().name + "|" + device.entry().driver + "|" + settings.program_version + "|" +
-           to_string(settings.bvh_quality);
+           hex_digits(kernels_hash(device.options().kernel_dir)) + "|" + to_string(settings.bvh_quality);
 }
 
 /// The reference file that shows this scene; empty if none does.

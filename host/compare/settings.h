@@ -47,7 +47,7 @@ struct CompareSettings {
     std::vector<std::filesystem::path> reference_files;
     BvhQuality bvh_quality = BvhQuality::quality;
     std::vector<Crop> crops;      ///< empty: chosen where errors are largest
-    std::string program_version;  ///< cells of other versions are measured again
+    std::string program_version;  ///< cells of other versions or kernels are measured again
     std::string command_line;     ///< by which the report can be made again
     std::string date;             ///< on which the report is written
 

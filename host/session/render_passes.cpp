@@ -51,6 +51,14 @@ RenderSettings pass_settings(const RenderSettings& settings, uint number, uint s
     return with_samples(std::move(result), samples);
 }
 
+/// The picture's relative error after passes of so many samples. A single sample per pixel says nothing about
+/// it.
+std::optional<double> known_error(const RenderSettings& settings, const Passes& passes,
+                                  std::span<const uint> samples) {
+    const bool is_known = samples.size() > 1 || (!samples.empty() && samples.front() > 1);
+    return settings.error && is_known ? std::optional(passes.average->error()) : std::nullopt;
+}
+
 /// Goes on from a checkpoint.
 void resume(Session& session, const RenderSettings& settings, Checkpoint checkpoint, Passes& passes,
             RenderReport& report) {
@@ -67,9 +75,9 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
     passes.choice = record.choice;
     passes.begun_rows = record.begun_rows;
     passes.average.emplace(std::move(checkpoint.sums), record.begun_samples, record.begun_rows);
-    const bool knows_error = settings.error && record.begun_rows == 0 && !samples.empty();
     passes.schedule.believe_after(passes.average->telling_passes());
-    passes.schedule.resume(samples, knows_error ? std::optional(passes.average->error()) : std::nullopt,
+    passes.schedule.resume(samples,
+                           record.begun_rows == 0 ? known_error(settings, passes, samples) : std::nullopt,
                            record.pace, record.begun_samples, record.begun_rows / height);
     if (record.choice && !samples.empty()) {
         passes.view = look(session, with_choice(settings, *record.choice), report);
@@ -126,7 +134,9 @@ PixelWindow rest_of(const Prepared& pass, std::size_t begun_rows) {
 void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& passes,
               const RenderReport& report) {
     passes.schedule.believe_after(passes.average->telling_passes());
-    passes.schedule.end(settings.error ? std::optional(passes.average->error()) : std::nullopt);
+    std::vector<uint> samples = passes.schedule.samples();
+    samples.push_back(pass.settings.gather.samples_per_pixel);
+    passes.schedule.end(known_error(settings, passes, samples));
     passes.totals = report.totals;
     if (!passes.choice) {
         passes.choice = choice_of(pass, settings);
@@ -218,12 +228,12 @@ void render_passes(Session& session, const RenderSettings& settings, const Rende
         }
         make_pass(session, settings, *samples, hooks, passes, report);
     }
-    if (settings.error && !passes.schedule.samples().empty()) {
-        report.error = passes.average->error();
-    }
+    report.error = known_error(settings, passes, passes.schedule.samples());
     tell(hooks.watcher, Moment::end, passes, *passes.view, settings.seed, report);
     hooks.start(report, *passes.view, passes.vpls);
-    passes.average->send(hooks.rows);
+    if (!passes.schedule.samples().empty() || passes.average->begun_rows() > 0) {
+        passes.average->send(hooks.rows);
+    }
 }
 
 }  // namespace nearlight::core

@@ -194,6 +194,7 @@ TEST_F(BadInput, Options) {
     expect_error(render(scene, "--range nan"), 2, "--range");
     expect_error(render(scene, "-D x"), 2, "NAME=VALUE");
     expect_error(render(scene, "--layers nosuch"), 2, "unknown layer 'nosuch'; choose from: ");
+    expect_error(render(scene, "--layers depth"), 2, "no output is one; give -o FILE.exr");
     for (const char* sampler : {"nosuch", "7", ""}) {
         expect_error(render(scene, "--sampler '" + std::string(sampler) + "'"), 2,
                      "choose one of: bidirectional, close-range, instant-radiosity");
@@ -290,6 +291,17 @@ TEST_F(BadInputOnDevice, MoreThanMemoryHolds) {
     if (result.exit_code != 0) {
         expect_error(result, 6, "use a smaller");
     }
+}
+
+TEST_F(BadInputOnDevice, InterruptBeforeTheFirstRowsKeepsTheOldPicture) {
+    std::ofstream(picture()) << "an old picture";
+    const ProgramResult result =
+        run_interrupted("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
+                            " --size 4096x4096 --spp 4096 --vpls 100000",
+                        3, [&](const ProgramResult& ended) { return ended.exit_code == 130; });
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_EQ(file_text(picture()), "an old picture");
+    EXPECT_NE(result.errors.find("nothing was written"), std::string::npos) << result.errors;
 }
 
 TEST_F(BadInputOnDevice, InterruptSavesWhatIsThere) {

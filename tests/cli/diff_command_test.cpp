@@ -63,6 +63,9 @@ TEST_F(Diff, OneLayer) {
     const nlohmann::json json = nlohmann::json::parse(result.output);
     ASSERT_EQ(json["layers"].size(), 1u);
     EXPECT_EQ(json["layers"][0]["layer"], "direct");
+    const ProgramResult beauty = run_program("diff --json --layer beauty " + both_);
+    ASSERT_EQ(beauty.exit_code, 0) << beauty.errors;
+    EXPECT_EQ(nlohmann::json::parse(beauty.output)["layers"][0]["layer"], "");
     const ProgramResult missing = run_program("diff --json --layer extra " + both_);
     EXPECT_EQ(missing.exit_code, 3);
     EXPECT_EQ(missing.output, "");

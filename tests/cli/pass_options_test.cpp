@@ -109,6 +109,21 @@ TEST_F(PassOptionsOfRender, AnErrorOutOfReachEndsAtTheBoundOfPasses) {
     EXPECT_EQ(nlohmann::json::parse(result.output)["passes"], 3);
 }
 
+/// One sample per pixel says nothing about its error, and certainly not that it is 0.
+TEST_F(PassOptionsOfRender, TheErrorOfASingleSampleIsUnknown) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const auto single = [&](const std::string& options) {
+        const ProgramResult result = run_program("render --json --spp 1 --vpls 50 " + quoted(scene_) +
+                                                 " -o " + quoted(output_) + options);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return nlohmann::json::parse(result.output);
+    };
+    EXPECT_TRUE(single(" --error 100 --passes 1")["relative_error"].is_null());
+    const nlohmann::json json = single(" --error 100");
+    EXPECT_GE(json["passes"].get<int>(), 2);
+    EXPECT_GT(json["relative_error"].get<double>(), 0.0);
+}
+
 TEST_F(PassOptionsOfRender, APictureOfOnePixelHasAnError) {
     NEARLIGHT_NEEDS_DEVICE();
     const nlohmann::json json = rendered("--error 0.5 --size 1x1 --layers variance");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "tests/cli/terminal.h"
 
@@ -67,6 +68,54 @@ TEST(TimeLeft, KnowsThatEachStepBeginsInSilence) {
             EXPECT_NEAR(*now, seconds_at(1.0) - seconds_at(part), 1e-9) << part;
         }
     }
+}
+
+/// Steps as render has them: the end of a step and the beginning of the work of the next are the same
+/// fraction.
+struct Step {
+    double silence, work;  // seconds
+};
+
+/// Tells `left` of the steps in tenths, and compares what it says of them with the truth from the step `sure`
+/// on.
+void expect_times(TimeLeft& left, const std::vector<Step>& steps, std::size_t done_before, std::size_t sure) {
+    double all = 0;
+    for (const Step& step : steps) {
+        all += step.silence + step.work;
+    }
+    const double count = static_cast<double>(done_before + steps.size());
+    double seconds = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        seconds += steps[i].silence;
+        for (int tenth = 0; tenth <= 10; ++tenth) {
+            const double begun = static_cast<double>(done_before + i);
+            const std::optional<double> now =
+                left.at((begun + tenth / 10.0) / count, seconds + steps[i].work * tenth / 10.0);
+            if (i >= sure && tenth > 5) {
+                ASSERT_TRUE(now.has_value()) << i << " " << tenth;
+                const double truth = all - seconds - steps[i].work * tenth / 10.0;
+                EXPECT_NEAR(*now, truth, 0.1 * truth + 0.5) << i << " " << tenth;
+            }
+        }
+        seconds += steps[i].work;
+    }
+}
+
+TEST(TimeLeft, TakesTheSilenceOfTheLatestStep) {
+    TimeLeft left(5);
+    expect_times(left, {{30, 4}, {2, 4}, {2, 4}, {2, 4}, {2, 4}}, 0, 1);
+}
+
+/// The first news is then the fraction that earlier runs have done.
+TEST(TimeLeft, GoesOnFromWholeStepsOfEarlierRuns) {
+    TimeLeft left(8);
+    expect_times(left, {{5, 20}, {5, 20}, {5, 20}, {5, 20}}, 4, 0);
+}
+
+TEST(TimeLeft, SaysNothingWhereTheAmountOfWorkIsUnknown) {
+    TimeLeft left(0);
+    left.at(0.0, 1.0);
+    EXPECT_FALSE(left.at(0.5, 100.0));
 }
 
 TEST(ProgressBar, OnTheTerminalItIsDrawnSeldomAndCleared) {

@@ -6,6 +6,7 @@
 
 #include "host/base/random.h"
 #include "host/image/color.h"
+#include "host/image/exr_patch.h"
 #include "tests/image/image_checks.h"
 #include "tests/image/temporary_folder.h"
 
@@ -90,6 +91,18 @@ TEST(ImageIo, ExrKeepsInfinityAndNan) {
     const Image back = read_image(folder / "a.exr");
     EXPECT_TRUE(std::isinf(back.at(0, 0, 0)));
     EXPECT_TRUE(std::isnan(back.at(1, 0, 1)));
+}
+
+/// Attributes are sorted, and manifests of mattes, which may be long, come before.
+TEST(ImageIo, ANumberBehindLongTextsIsPatched) {
+    const TemporaryFolder folder;
+    ImageWriterOptions options;
+    options.metadata = {{"cryptomatte/a/manifest", std::string(200'000, 'x') + "renderTimeSeconds"},
+                        {"renderTimeSeconds", 1.5f}};
+    write_image(folder / "a.exr", noise(4, 4, kLayers), options);
+    patch_exr_float(folder / "a.exr", "renderTimeSeconds", 2.5f);
+    EXPECT_EQ(read_metadata(folder / "a.exr").at("renderTimeSeconds"), Metadata::mapped_type{2.5f});
+    EXPECT_THROW(patch_exr_float(folder / "a.exr", "nothing", 1.0f), Error);
 }
 
 TEST(ImageIo, ExrKeepsMetadata) {
