@@ -2,15 +2,15 @@
 #include "host/scene/ply_scene.h"
 
 #include "host/scene/crease_normals.h"
-#include "host/scene/default_view.h"
 #include "host/scene/material_model.h"
 #include "host/scene/mesh.h"
-#include "host/scene/named_choice.h"
+#include "host/scene/model_scene.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/ply_loader.h"
 #include "host/scene/vertex_colors.h"
 
 namespace nearlight::core {
+
 Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& options) {
     Scene scene;
     scene.source = file;
@@ -24,12 +24,7 @@ Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& optio
     }
     const std::vector<uint> materials{add_plain_surface(scene, !mesh.colors.empty())};
     append_mesh(scene, mesh, {.to_world = {}, .materials = materials}, notes);
-    choose_named(file, "camera", {}, options.camera);
-    add_default_camera(scene, notes);
-    if (!options.overrides.bring_light()) {
-        add_default_light(scene, true, notes);
-    }
-    scene.has_open_exposure = true;
+    finish_model(scene, options, notes);
     return scene;
 }
 

@@ -58,10 +58,13 @@ bool turns_left_only(std::span<const Point> points) {
 class EarCutter {
   public:
     explicit EarCutter(std::span<const Point> points) : points_(points) {
-        for (uint i = 0; i < points.size(); ++i) {
-            next_.push_back(i + 1 < points.size() ? i + 1 : 0);
-            previous_.push_back(i > 0 ? i - 1 : static_cast<uint>(points.size()) - 1);
-            if (!is_left_turn(i, i > 0 ? i - 1 : static_cast<uint>(points.size()) - 1, next_[i])) {
+        const auto count = static_cast<uint>(points.size());
+        for (uint i = 0; i < count; ++i) {
+            next_.push_back(i + 1 < count ? i + 1 : 0);
+            previous_.push_back(i > 0 ? i - 1 : count - 1);
+        }
+        for (uint i = 0; i < count; ++i) {
+            if (!is_left_turn(i, previous_[i], next_[i])) {
                 notches_.push_back(i);
             }
         }

@@ -297,8 +297,8 @@ TEST_F(BadInputOnDevice, InterruptBeforeTheFirstRowsKeepsTheOldPicture) {
     std::ofstream(picture()) << "an old picture";
     const ProgramResult result =
         run_interrupted("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
-                            " --size 4096x4096 --spp 4096 --vpls 100000",
-                        3, [&](const ProgramResult& ended) { return ended.exit_code == 130; });
+                            " --size 2048x2048 --spp 4096 --vpls 2000",
+                        1.5, [&](const ProgramResult& ended) { return ended.exit_code == 130; });
     EXPECT_EQ(result.exit_code, 130) << result.errors;
     EXPECT_EQ(file_text(picture()), "an old picture");
     EXPECT_NE(result.errors.find("nothing was written"), std::string::npos) << result.errors;

@@ -14,13 +14,13 @@ namespace nearlight::core {
 
 /// What a file is read as.
 enum class ObjUse {
-    /// Polygons may have any shape, smoothing groups and colours of vertices count, and the text is kept.
-    /// Meshes of
-    /// which no face has a normal are smooth as the smoothing groups say, or where faces meet at a small
-    /// angle if the
-    /// file has no such groups (add_crease_normals()).
+    /// Polygons may have any shape, smoothing groups and colours of vertices count, and the text is kept. A
+    /// mesh
+    /// of which no face has a normal is smooth as the smoothing groups say, or, if the file has no such
+    /// groups,
+    /// where faces meet at a small angle (add_crease_normals()).
     scene,
-    /// As Mitsuba reads a file of a shape: polygons are fans; smoothing groups and colours do not count.
+    /// As Mitsuba reads the file of a shape: polygons are fans; smoothing groups and colours do not count.
     mitsuba_shape,
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/obj/obj_loader.h"
 
-#include "host/scene/default_view.h"
 #include "host/scene/mesh.h"
-#include "host/scene/named_choice.h"
+#include "host/scene/model_scene.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/obj/obj_file.h"
 #include "host/scene/obj/obj_materials.h"
@@ -29,12 +28,7 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
         const std::vector<uint> materials = add_obj_materials(scene, obj, notes);
         append_mesh(scene, obj.mesh, {.to_world = {}, .materials = materials}, notes);
     }
-    choose_named(file, "camera", {}, options.camera);
-    add_default_camera(scene, notes);
-    if (!options.overrides.bring_light()) {
-        add_default_light(scene, true, notes);
-    }
-    scene.has_open_exposure = true;
+    finish_model(scene, options, notes);
     return scene;
 }
 
