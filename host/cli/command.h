@@ -13,7 +13,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <string>
 
 #include "host/base/words.h"
@@ -83,8 +82,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
         const auto found = choices.find(text);
         if (found == choices.end()) {
             throw Error(ErrorKind::invalid_argument,
-                        "unknown " + option + " '" + text +
-                            "'; choose one of: " + joined(std::views::keys(choices), ", "));
+                        "unknown " + option + " '" + text + "'; choose one of: " +
+                            joined(choices, ", ", [](const auto& choice) { return choice.first; }));
         }
         value = found->second;
     };

@@ -75,7 +75,7 @@ void Service::receive(const Message& message) {
         case MessageKind::picture:
             if (ended_early_.erase(head.picture) == 0) {
                 pictures_[head.picture] = std::make_shared<const ShownPicture>(
-                    message.first<Picture>(), VplBuffer(message.body<Vpl>(sizeof(Picture))));
+                    ShownPicture{message.first<Picture>(), VplBuffer(message.body<Vpl>(sizeof(Picture)))});
             }
             break;
         case MessageKind::order:

@@ -134,7 +134,8 @@ bool is_directional(const Emitter& emitter) {
 /// All lights, even those without power, with probabilities that are not yet filled in.
 std::vector<Emitter> collect_emitters(const Scene& scene) {
     std::vector<Emitter> emitters = scene.delta_emitters;
-    std::ranges::stable_partition(emitters, is_directional);
+    // The algorithms of std::ranges that return ranges do not compile with Debian 12's clang.
+    std::stable_partition(emitters.begin(), emitters.end(), is_directional);
     add_area_lights(scene, emitters);
     if (scene.environment.sun_half_angle > 0.0f) {
         Emitter emitter{};

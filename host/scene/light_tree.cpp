@@ -289,10 +289,11 @@ std::size_t LightTreeBuilder::best_part(const LightRange& lights) {
     if (split.axis >= 0) {
         const LightBins mapping(centers, split.axis);
         const std::span<TreeLight> parted = in(lights);
-        const auto behind = std::ranges::partition(
-            parted, [&](const TreeLight& light) { return mapping.of(light) < split.border; });
-        if (behind.size() > 0 && behind.size() < parted.size()) {
-            return lights.end - behind.size();
+        const auto behind = std::partition(parted.begin(), parted.end(), [&](const TreeLight& light) {
+            return mapping.of(light) < split.border;
+        });
+        if (behind != parted.begin() && behind != parted.end()) {
+            return lights.first + static_cast<std::size_t>(behind - parted.begin());
         }
     }
     return halve(lights);
