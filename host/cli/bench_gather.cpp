@@ -10,7 +10,6 @@
 #include "host/cli/device_options.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
-#include "host/cli/pass_options.h"
 #include "host/cli/scene_options.h"
 
 namespace nearlight::core {

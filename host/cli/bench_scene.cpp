@@ -18,8 +18,7 @@ void add_bench_scene_options(CLI::App& command, SceneOptions& options) {
     add_scene_options(command, options);
     command.get_option("SCENE")->required(false)->description(
         "Mitsuba XML (.xml), glTF (.gltf, .glb), OBJ (.obj), PLY (.ply), or spheres:N for a generated room "
-        "of N "
-        "triangles");
+        "of N triangles");
 }
 
 Scene make_bench_scene(const SceneOptions& options) {

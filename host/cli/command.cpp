@@ -267,4 +267,16 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
         ->type_name("WxH");
 }
 
+CLI::Validator number_from(double low, double high) {
+    return CLI::Validator(
+        [low, high](const std::string& text) {
+            double value = NAN;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            return is_number && value >= low && value <= high
+                       ? std::string()
+                       : fmt::format("'{}' is no number from {:g} to {:g}", text, low, high);
+        },
+        "");
+}
+
 }  // namespace nearlight::core

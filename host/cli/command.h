@@ -57,6 +57,9 @@ class CommandLine {
     Run run_;  ///< runs the command that the line names
 };
 
+/// Accepts numbers from `low` to `high`, and no NaN.
+CLI::Validator number_from(double low, double high);
+
 struct ImageSize {
     int width = 0;
     int height = 0;

@@ -12,7 +12,6 @@
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
-#include "host/cli/pass_options.h"
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"
 #include "host/compare/comparison.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "host/cli/cuts_options.h"
-#include "host/cli/pass_options.h"
 #include "host/samplers/sampler.h"
 
 namespace nearlight::core {

@@ -10,18 +10,6 @@
 
 namespace nearlight::core {
 
-CLI::Validator number_from(double low, double high) {
-    return CLI::Validator(
-        [low, high](const std::string& text) {
-            double value = NAN;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            return is_number && value >= low && value <= high
-                       ? std::string()
-                       : fmt::format("'{}' is no number from {:g} to {:g}", text, low, high);
-        },
-        "");
-}
-
 void add_pass_options(CLI::App& command, PassOptions& options) {
     auto* const passes = command.add_option(
         "--passes", options.passes,

@@ -18,9 +18,6 @@ struct PassOptions {
     std::vector<uint> pass_samples;
 };
 
-/// Accepts numbers from `low` to `high`, and no NaN.
-CLI::Validator number_from(double low, double high);
-
 /// Adds --passes, --time, --error and --pass-spp.
 void add_pass_options(CLI::App& command, PassOptions& options);
 

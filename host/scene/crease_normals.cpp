@@ -9,20 +9,12 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "host/base/hash.h"
-
 namespace nearlight::core {
 namespace {
 
 constexpr uint kNone = ~0u;
 /// How many triangles at one side are compared with each other. Surfaces have two there.
 constexpr std::size_t kMaxTogether = 8;
-
-struct PlaceHash {
-    std::size_t operator()(const std::array<float, 3>& place) const {
-        return hash64(std::as_bytes(std::span(place)));
-    }
-};
 
 /// Sets of corners that have a normal in common. Corner 3·t + k is that of triangle t at its vertex k.
 class CornerSets {
@@ -157,18 +149,6 @@ class VertexSplitter {
 };
 
 }  // namespace
-
-std::vector<uint> places_of(std::span<const Vec3> positions) {
-    std::unordered_map<std::array<float, 3>, uint, PlaceHash> numbers;
-    std::vector<uint> places;
-    places.reserve(positions.size());
-    for (const Vec3 p : positions) {  // adding 0 makes −0 the same place as 0
-        places.push_back(
-            numbers.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, static_cast<uint>(numbers.size()))
-                .first->second);
-    }
-    return places;
-}
 
 void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups) {
     const auto corners = static_cast<uint>(3 * mesh.triangles.size());

@@ -18,12 +18,9 @@ inline constexpr float kCreaseDegrees = 40.0f;
 
 /// Gives a mesh without normals some: triangles of the same group that share an edge are smooth across it,
 /// weighted by their angles as in smooth_normals(), and a vertex becomes several where others meet. Vertices
-/// of kFlat get the normal (0, 0, 0), which stands for that of the triangle. `places` has one number for each
-/// vertex: vertices with the same one are at the same place, whatever their texture coordinates are. `groups`
-/// has one for each triangle.
+/// of kFlat get the normal (0, 0, 0), which stands for that of the triangle. `places` are those of the
+/// vertices (places_of()), which tell what shares an edge whatever texture coordinates are. `groups` has one
+/// for each triangle.
 void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups);
-
-/// A number for each position that those at the same place share.
-std::vector<uint> places_of(std::span<const Vec3> positions);
 
 }  // namespace nearlight::core

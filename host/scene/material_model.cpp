@@ -173,19 +173,6 @@ int nesting(const Scene& scene, const Material& material) {
     return levels;
 }
 
-uint add_plain_surface(Scene& scene, bool has_vertex_colors) {
-    Material surface = diffuse_material({0.5f, 0.5f, 0.5f});
-    if (has_vertex_colors) {
-        SceneTexture colors;
-        colors.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
-        colors.parameters.color0 = colors.parameters.color1 = parameter_of(1.0f);
-        colors.image = -1;
-        scene.textures.push_back(colors);
-        surface.reflectance = textured(static_cast<int>(scene.textures.size()) - 1);
-    }
-    return add_two_sided(scene, surface);
-}
-
 uint add_two_sided(Scene& scene, const Material& material) {
     const auto side = static_cast<uint>(scene.materials.size());
     scene.materials.push_back(material);

@@ -84,10 +84,6 @@ std::span<const uint> children(const Material& material);
 /// How many materials lie within each other below this one: 0 if it stands for no others.
 int nesting(const Scene& scene, const Material& material);
 
-/// Adds the two-sided material of a surface for which a file has none: grey, or the vertices' colours if they
-/// have some. Returns its index.
-uint add_plain_surface(Scene& scene, bool has_vertex_colors);
-
 /// Adds the two-sided material of a one-sided one, whose emission it takes over; returns its index.
 uint add_two_sided(Scene& scene, const Material& material);
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
+#include "host/scene/places.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -229,11 +229,8 @@ std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<cons
 }
 
 bool is_closed(const Mesh& mesh, std::optional<uint> group) {
-    std::map<std::tuple<float, float, float>, uint> places;
-    const auto place = [&](uint vertex) {
-        const Vec3 p = mesh.positions[vertex];
-        return places.try_emplace({p.x, p.y, p.z}, static_cast<uint>(places.size())).first->second;
-    };
+    Places places;
+    const auto place = [&](uint vertex) { return places.number(mesh.positions[vertex]); };
     std::map<std::pair<uint, uint>, int> open_edges;  // how much more often one way than the other
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (group && (mesh.groups.empty() ? 0 : mesh.groups[i]) != *group) {

@@ -2,9 +2,26 @@
 #include "host/scene/model_scene.h"
 
 #include "host/scene/default_view.h"
+#include "host/scene/material_model.h"
 #include "host/scene/named_choice.h"
+#include "host/scene/texture_loader.h"
 
 namespace nearlight::core {
+
+Scene begin_model(const std::filesystem::path& file) {
+    Scene scene;
+    scene.source = file;
+    scene.name = file.stem().string();
+    return scene;
+}
+
+uint add_plain_surface(Scene& scene, bool has_vertex_colors) {
+    Material surface = diffuse_material({0.5f, 0.5f, 0.5f});
+    if (has_vertex_colors) {
+        surface.reflectance = textured(add_texture(scene, vertex_color_texture()));
+    }
+    return add_two_sided(scene, surface);
+}
 
 void finish_model(Scene& scene, const LoadOptions& options, NoteSink& notes) {
     choose_named(scene.source, "camera", {}, options.camera);

@@ -2,19 +2,17 @@
 #include "host/scene/ply_scene.h"
 
 #include "host/scene/crease_normals.h"
-#include "host/scene/material_model.h"
 #include "host/scene/mesh.h"
 #include "host/scene/model_scene.h"
 #include "host/scene/note_sink.h"
+#include "host/scene/places.h"
 #include "host/scene/ply_loader.h"
 #include "host/scene/vertex_colors.h"
 
 namespace nearlight::core {
 
 Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    Scene scene;
-    scene.source = file;
-    scene.name = file.stem().string();
+    Scene scene = begin_model(file);
     NoteSink notes(scene.notes, options.strict);
     Mesh mesh = read_ply(file);
     decode_display_colors(mesh.colors);

@@ -35,9 +35,9 @@ struct LoadOptions {
 };
 
 /// Reads a scene in the format that its extension tells: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0),
-/// .obj, .ply. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds something
-/// unknown, and Error(ErrorKind::invalid_argument) for a camera, a parameter or an animation that is not
-/// there, or as apply_overrides().
+/// .obj, .ply. Throws Error(ErrorKind::file) with file and line if the file is missing, broken or holds
+/// something unknown, and Error(ErrorKind::invalid_argument) for a camera, a parameter or an animation that
+/// is not there, or as apply_overrides().
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// The camera that a scene, which was loaded at some moment, has at that of `options`, which are else those

@@ -234,6 +234,12 @@ SceneTexture plain_texture(int image) {
     return texture;
 }
 
+SceneTexture vertex_color_texture() {
+    SceneTexture texture = plain_texture(-1);
+    texture.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
+    return texture;
+}
+
 int add_texture(Scene& scene, const SceneTexture& texture) {
     scene.textures.push_back(texture);
     return static_cast<int>(scene.textures.size() - 1);

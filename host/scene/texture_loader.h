@@ -63,6 +63,8 @@ class TextureLoader {
 void throw_unless_file(const Error& error);
 /// A bitmap texture of an image in Scene::images, without a placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
+/// A texture of the vertices' own colours.
+SceneTexture vertex_color_texture();
 /// Adds a texture to the scene and returns its index.
 int add_texture(Scene& scene, const SceneTexture& texture);
 /// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Pixels that are negative or

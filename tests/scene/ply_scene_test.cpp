@@ -2,7 +2,7 @@
 // PLY files as whole scenes.
 #include <gtest/gtest.h>
 
-#include "host/scene/crease_normals.h"
+#include "host/scene/places.h"
 #include "tests/scene/scene_files.h"
 
 namespace nearlight::core {

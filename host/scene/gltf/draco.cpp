@@ -25,8 +25,8 @@ const DracoCodec* draco_codec() {
 }
 
 /// Many encoders leave it to the accessor to say that whole numbers stand for those up to 1.
-void normalize(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
-               std::vector<float>& numbers) {
+void scale_whole_numbers(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
+                         std::vector<float>& numbers) {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) {
         return;
@@ -69,7 +69,7 @@ void decode_draco(const GltfFile& file, const tinygltf::Primitive& primitive,
         if (found == mesh.attributes.end()) {
             file.fail("a compressed mesh lacks its attribute " + name);
         }
-        normalize(file, primitive, name, found->second.numbers);
+        scale_whole_numbers(file, primitive, name, found->second.numbers);
         attributes[name] = {found->second.numbers, found->second.components};
     }
 }

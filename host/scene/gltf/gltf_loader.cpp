@@ -7,6 +7,7 @@
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/meshes.h"
 #include "host/scene/gltf/nodes.h"
+#include "host/scene/model_scene.h"
 
 namespace nearlight::core {
 namespace {
@@ -49,9 +50,7 @@ void add_still_camera(gltf::GltfFile& file, std::vector<tinygltf::Node> nodes_at
 
 Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& options) {
     gltf::GltfFile file = gltf::read_gltf(path);
-    Scene scene;
-    scene.source = path;
-    scene.name = path.stem().string();
+    Scene scene = begin_model(path);
     NoteSink notes(scene.notes, options.strict);
     if (options.lists_animations) {
         scene.animations = gltf::list_animations(file);

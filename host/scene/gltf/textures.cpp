@@ -167,9 +167,7 @@ Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 valu
 
 Parameter TextureMaker::vertex_color(Vec3 value) {
     if (vertex_color_ < 0) {
-        SceneTexture texture = plain_texture(-1);
-        texture.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
-        vertex_color_ = add_texture(scene_, texture);
+        vertex_color_ = add_texture(scene_, vertex_color_texture());
     }
     return {value, vertex_color_};
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/optics_tables.h"
 
-#include "host/scene/mitsuba/values.h"
-
 #include <algorithm>
 #include <string_view>
 #include <utility>
+
+#include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {
 namespace {
@@ -99,8 +99,9 @@ std::optional<Metal> find_metal(const std::string& name) {
 }
 
 std::optional<double> find_index_of_refraction(const std::string& name) {
+    const std::string wanted = lower_case(name);
     for (const auto& [known, index] : kIndices) {
-        if (known == lower_case(name)) {
+        if (known == wanted) {
             return index;
         }
     }

@@ -117,9 +117,12 @@ std::string ShapeMaker::name_of(const Object& shape, std::size_t number) const {
         number);
 }
 
-uint ShapeMaker::add_medium_boundary() {
-    scene_.materials.push_back(plain_material(NEARLIGHT_BSDF_NULL));
-    return static_cast<uint>(scene_.materials.size() - 1);
+uint ShapeMaker::medium_boundary() {
+    if (!medium_boundary_) {
+        scene_.materials.push_back(plain_material(NEARLIGHT_BSDF_NULL));
+        medium_boundary_ = static_cast<uint>(scene_.materials.size() - 1);
+    }
+    return *medium_boundary_;
 }
 
 void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
@@ -135,7 +138,7 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
     // In Mitsuba 0.5 and 0.6, a medium alone has no surface.
     const bool is_medium = bsdfs.empty() && shape.is_old && !shape.nested("medium").empty();
     const uint material = is_medium && is_zero(emitted.value)
-                              ? add_medium_boundary()
+                              ? medium_boundary()
                               : materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
     const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
     const std::size_t first_triangle = scene_.triangles.size();

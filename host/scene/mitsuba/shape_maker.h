@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "host/scene/mesh.h"
 #include "host/scene/mitsuba/material_maker.h"
@@ -23,9 +24,9 @@ class ShapeMaker {
   private:
     /// Adds a shape that lies in `depth` merges.
     void add(const Object& shape, uint depth);
-    /// Adds the shape as an object of its name, after that of the instance whose part it is.
     /// The index of a material that light passes as if it was not there.
-    uint add_medium_boundary();
+    uint medium_boundary();
+    /// Adds the shape as an object of its name, after that of the instance whose part it is.
     void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
                     const std::string& instance = {});
     [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;
@@ -42,6 +43,7 @@ class ShapeMaker {
     MeshReader reader_{{}};
     std::map<const Object*, Mesh> group_meshes_;
     std::size_t shape_count_ = 0;  ///< shapes and instances so far
+    std::optional<uint> medium_boundary_{};
 };
 
 }  // namespace nearlight::core::mitsuba

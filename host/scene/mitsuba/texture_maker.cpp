@@ -268,9 +268,8 @@ Parameter TextureMaker::make_mesh_attribute(const Object& texture, Purpose purpo
     if (purpose == Purpose::height || purpose == Purpose::normals) {
         fail(texture.where, "mesh attribute '" + name + "' is only supported as a colour or a number");
     }
-    SceneTexture made = plain_texture(-1);
-    made.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
-    return textured(add_texture(scene_, made), static_cast<float>(texture.number("scale", 1.0)));
+    return textured(add_texture(scene_, vertex_color_texture()),
+                    static_cast<float>(texture.number("scale", 1.0)));
 }
 
 // Mitsuba 0.5 and 0.6 scale textures by another one.

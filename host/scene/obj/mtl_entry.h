@@ -15,25 +15,23 @@ inline Vec3 clamped(Vec3 c) {
     return min(max(c, {0, 0, 0}), {1, 1, 1});
 }
 
-/// Whether the entry has the extension for physically based rendering.
-bool is_physically_based(const tinyobj::material_t& entry);
+/// What the words of an entry mean together.
+enum class Look { glass, principled, mirror, blenders_principled, plastic, diffuse };
+/// `is_blenders`: the exporter of Blender 3 or later wrote the entry.
+Look look_of(const tinyobj::material_t& entry, bool is_blenders);
+
 /// Illumination model 1 has no highlights, whatever Ks says.
 bool has_highlight(const tinyobj::material_t& entry);
 /// The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
 double index_of(const tinyobj::material_t& entry);
-
-/// Without the extension for physically based rendering, Blender writes the metalness as Ka.
-bool is_blenders_metal(const tinyobj::material_t& entry, bool is_blenders);
-/// Maya gives illum 4 to all materials. So that model alone makes no glass of a surface that has a colour of
-/// its own, an opacity of 1 and no index of refraction.
-bool is_glass(const tinyobj::material_t& entry, bool is_blenders);
-bool is_mirror(const tinyobj::material_t& entry, bool is_blenders);
 
 /// The roughness α of Beckmann's microfacets that are as rough as a highlight with the exponent Ns [Walter et
 /// al., Microfacet Models for Refraction through Rough Surfaces, 2007].
 double alpha_of_exponent(double exponent);
 /// The inverse of Blender's Ns = 1000·(1 − roughness)².
 float blenders_roughness(float exponent);
+/// Blender writes the metalness of what is metal as Ka.
+float blenders_metalness(const tinyobj::material_t& entry);
 /// The colour with its largest component at 1, or white for black. Programs agree about the colour of Tf, but
 /// not whether a small one means dark or clear glass.
 Vec3 hue(Vec3 color);

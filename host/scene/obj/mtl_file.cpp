@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/obj/mtl_file.h"
 
+#include <algorithm>
 #include <istream>
 #include <optional>
 
@@ -102,38 +103,30 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
     return library;
 }
 
+/// The libraries that a line names: the text as a whole, whose blanks may be those of a file's name, or else
+/// its words if there is a file for one of them.
+std::vector<std::string> names_in(const std::string& text, const std::filesystem::path& obj) {
+    std::error_code ignored;
+    const auto is_there = [&](const std::string& name) {
+        return !name.empty() && std::filesystem::exists(resolve_path(obj, name), ignored);
+    };
+    std::vector<std::string> words = split(text, ' ');
+    std::erase(words, "");
+    return !is_there(text) && std::ranges::any_of(words, is_there) ? words : std::vector{text};
+}
+
 }  // namespace
 
 std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes) {
     std::vector<MaterialLibrary> libraries;
-    const auto read = [&](const std::string& name) {
-        std::optional<MaterialLibrary> library = read_library(resolve_path(obj.mesh.source, name));
-        if (library) {
-            libraries.push_back(std::move(*library));
-        }
-        return library.has_value();
-    };
-    const auto note = [&](int line, const std::string& name) {
-        notes.approximation(obj.mesh.source, line,
-                            "material library '" + name + "' cannot be read; its materials are grey");
-    };
-    for (const auto& [line, names] : obj.libraries) {
-        if (read(names)) {
-            continue;
-        }
-        const std::size_t before = libraries.size();
-        std::vector<std::string> missing;
-        for (const std::string& name : split(names, ' ')) {
-            if (!name.empty() && !read(name)) {
-                missing.push_back(name);
+    for (const auto& [line, text] : obj.libraries) {
+        for (const std::string& name : names_in(text, obj.mesh.source)) {
+            if (std::optional<MaterialLibrary> library = read_library(resolve_path(obj.mesh.source, name))) {
+                libraries.push_back(std::move(*library));
+            } else {
+                notes.approximation(obj.mesh.source, line,
+                                    "material library '" + name + "' cannot be read; its materials are grey");
             }
-        }
-        if (libraries.size() == before) {
-            note(line, names);
-            continue;
-        }
-        for (const std::string& name : missing) {
-            note(line, name);
         }
     }
     return libraries;

@@ -16,6 +16,7 @@
 #include "host/scene/file_text.h"
 #include "host/scene/obj/obj_extras.h"
 #include "host/scene/obj/obj_text.h"
+#include "host/scene/places.h"
 #include "host/scene/polygon.h"
 #include "nearlight/error.h"
 

@@ -11,9 +11,7 @@
 namespace nearlight::core {
 
 Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    Scene scene;
-    scene.source = file;
-    scene.name = file.stem().string();
+    Scene scene = begin_model(file);
     NoteSink notes(scene.notes, options.strict);
     {
         const ObjFile obj = read_obj(file, ObjUse::scene);

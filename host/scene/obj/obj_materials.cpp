@@ -6,6 +6,7 @@
 
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
+#include "host/scene/model_scene.h"
 #include "host/scene/obj/mtl_entry.h"
 #include "host/scene/obj/mtl_file.h"
 #include "host/scene/scene_names.h"
@@ -49,11 +50,25 @@ class ObjMaterials {
     // The index of the material.
     uint add(const MaterialSource& source) {
         warn_of_what_is_left_out(source);
-        uint made =
-            is_glass(source.entry, source.library.is_blenders) ? add_glass(source) : add_opaque(source);
-        if (!is_glass(source.entry, source.library.is_blenders)) {
-            made = add_normal_map(source, made);
-            made = add_mask(source, made);
+        uint made = 0;
+        switch (look_of(source.entry, source.library.is_blenders)) {
+            case Look::glass:
+                made = add_glass(source);
+                break;
+            case Look::mirror:
+                made = dissolve(source, add_mirror(source));
+                break;
+            case Look::principled:
+                made = dissolve(source, add_two_sided(scene_, principled(source)));
+                break;
+            case Look::blenders_principled:
+                made = dissolve(source, add_two_sided(scene_, blenders_principled(source)));
+                break;
+            case Look::plastic:
+                made = dissolve(source, add_two_sided(scene_, plastic(source)));
+                break;
+            case Look::diffuse:
+                made = dissolve(source, add_two_sided(scene_, diffuse(source)));
         }
         scene_.materials[made].emission = emission(source);
         return made;
@@ -85,20 +100,6 @@ class ObjMaterials {
     uint add(const Material& material) {
         scene_.materials.push_back(material);
         return static_cast<uint>(scene_.materials.size() - 1);
-    }
-
-    uint add_opaque(const MaterialSource& source) {
-        if (is_physically_based(source.entry)) {
-            return add_two_sided(scene_, principled(source));
-        }
-        if (is_mirror(source.entry, source.library.is_blenders)) {
-            return add_mirror(source);
-        }
-        if (is_blenders_metal(source.entry, source.library.is_blenders) ||
-            (source.library.is_blenders && has_highlight(source.entry))) {
-            return add_two_sided(scene_, blenders_principled(source));
-        }
-        return add_two_sided(scene_, has_highlight(source.entry) ? plastic(source) : diffuse(source));
     }
 
     /// A body where the model refracts and the surface has no border, otherwise a pane. Tf tints it.
@@ -168,9 +169,7 @@ class ObjMaterials {
         Material material = principled_material(scene_, index_of(source.entry));
         material.reflectance = diffuse(source).reflectance;
         material.roughness = parameter_of(blenders_roughness(source.entry.shininess));
-        material.metallic = parameter_of(is_blenders_metal(source.entry, source.library.is_blenders)
-                                             ? std::clamp(source.entry.ambient[0], 0.0f, 1.0f)
-                                             : 0.0f);
+        material.metallic = parameter_of(blenders_metalness(source.entry));
         return material;
     }
 
@@ -223,9 +222,7 @@ class ObjMaterials {
             return color;
         }
         if (vertex_color_ < 0) {
-            SceneTexture texture = plain_texture(-1);
-            texture.parameters.kind = NEARLIGHT_TEXTURE_VERTEX_COLOR;
-            vertex_color_ = add_texture(scene_, texture);
+            vertex_color_ = add_texture(scene_, vertex_color_texture());
         }
         return {color.value, vertex_color_};
     }
@@ -272,7 +269,11 @@ class ObjMaterials {
                      .steepness_y = steepness});
     }
 
-    // Dissolves the material by `d` and `map_d`.
+    // The opaque material with its map of normals, dissolved by `d` and `map_d`.
+    uint dissolve(const MaterialSource& source, uint opaque) {
+        return add_mask(source, add_normal_map(source, opaque));
+    }
+
     uint add_mask(const MaterialSource& source, uint material) {
         float d = source.entry.dissolve;
         if (d == 0.0f && !says(source, "d")) {
