@@ -10,8 +10,8 @@
 //
 // `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
 // shared_lights.cl, shared_sky.cl, shared_veiled.cl and shared_reflections.cl to take further. Reflections
-// want the `spacing` of each receiver, which receiver_spacing finds: one work-item for each bundle; any
-// work-group size.
+// want the `spacing` of each receiver, which receiver_spacing finds: one work-item for each `part` receivers
+// of a bundle, which `part` divides; any work-group size.
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
@@ -150,11 +150,17 @@ static inline float neighbourhood_radius(const SharingPlaces* places, uint lane)
 }
 
 kernel void receiver_spacing(const global ReceiverPacket* restrict receivers, uint packet_count,
-                             uint max_edges, global float* restrict spacing) {
-    const Bundle bundle = bundle_at((uint)get_global_id(0), packet_count);
+                             uint max_edges, uint part, global float* restrict spacing) {
+    const uint first = (uint)get_global_id(0) * part;
+    const Bundle bundle = bundle_at(first / BUNDLE_RECEIVERS, packet_count);
+    const uint first_lane = first % BUNDLE_RECEIVERS;
+    const uint end_lane = min(first_lane + part, bundle.count * NEARLIGHT_PACKET_SIZE);
+    if (first_lane >= end_lane) {
+        return;
+    }
     SharingPlaces places;
     find_sharing_places(&places, receivers, &bundle, max_edges);
-    for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
+    for (uint lane = first_lane; lane < end_lane; ++lane) {
         spacing[bundle.first * NEARLIGHT_PACKET_SIZE + lane] =
             places.x[lane] < INFINITY ? neighbourhood_radius(&places, lane) : 0.0f;
     }

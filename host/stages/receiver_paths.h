@@ -78,6 +78,7 @@ class ReceiverPaths {
     Program program_;
     Kernel receiver_paths_;
     Kernel receiver_spacing_;
+    uint spacing_part_;
     FoundLights none_found_;
 };
 

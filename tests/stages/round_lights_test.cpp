@@ -142,7 +142,7 @@ TEST_F(RoundLightTest, DeviceIsUniformOverTheConeAndKnowsItsDensity) {
             uint outside = 0;
             for (const auto& [x, y, z, ratio] : samples[i]) {
                 directions.push_back({x, y, z});
-                outside += ratio == 1.0f ? 0 : 1;
+                outside += std::abs(ratio - 1.0f) < 1e-5f ? 0 : 1;  // devices round the two differently
             }
             EXPECT_LE(outside, kRoundSamples / 500) << "more than at the rim";
             const SphereView& view = kSphereViews[i];

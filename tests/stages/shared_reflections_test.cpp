@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "host/base/division.h"
 #include "host/scene/material_model.h"
+#include "host/stages/joint_programs.h"
 #include "tests/support/brought_light.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/scene_on_device.h"
@@ -263,6 +265,22 @@ TEST_F(SharedReflectionsTest, ANeighbourhoodHoldsAQuarter) {
             EXPECT_GE(within(x.position, 1.0001f * spacing[i]), count) << i;
             EXPECT_LT(within(x.position, 0.9999f * std::sqrt(0.5f) * spacing[i]), count) << i;
         }
+    });
+}
+
+/// CPUs find the spacing of a bundle with one work-item, and GPUs with many.
+TEST_F(SharedReflectionsTest, NeighbourhoodsDoNotDependOnTheDivisionOfWork) {
+    on_each_device([](Device& device) {
+        const std::vector<ReceiverPacket> packets = receivers_on_the_ceiling();
+        const Buffer<ReceiverPacket> receivers(device, packets);
+        Kernel kernel(Program(device, "receiver_paths.cl", kViewProgram), "receiver_spacing");
+        const auto spacing = [&](uint part) {
+            Buffer<float> found(device, packets.size() * NEARLIGHT_PACKET_SIZE);
+            kernel.launch_items(divide_rounding_up(found.count(), std::size_t{part}), receivers,
+                                static_cast<uint>(packets.size()), kTwoGlossyRays.max_edges, part, found);
+            return found.download();
+        };
+        EXPECT_EQ(spacing(8), spacing(256));
     });
 }
 
