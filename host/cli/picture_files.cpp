@@ -69,6 +69,27 @@ std::string extension_of(const std::string& file) {
     return extension;
 }
 
+bool has_outputs(const PictureOptions& options, std::string_view extension) {
+    return std::ranges::any_of(options.outputs,
+                               [&](const std::string& file) { return extension_of(file) == extension; });
+}
+
+/// Names options that change none of the files.
+void warn_of_idle_options(const PictureOptions& options) {
+    if (!options.outputs.empty() && !has_outputs(options, ".exr") &&
+        (options.is_full_precision || options.compression != ExrCompression::zip)) {
+        spdlog::warn(
+            "--exr-precision and --exr-compression change nothing, because no output is an EXR file");
+    }
+    if (!options.outputs.empty() && !has_screen_pictures(options) &&
+        (!options.screen.exposure.empty() || options.screen.curve)) {
+        spdlog::warn(
+            "--exposure and --tonemap change nothing, because no output is a PNG file; EXR files keep the "
+            "light "
+            "as it is");
+    }
+}
+
 /// The layers that a file gets, in the order of the rows.
 std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::string& file) {
     const bool takes_more = extension_of(file) == ".exr";
@@ -146,8 +167,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
 }
 
 bool has_screen_pictures(const PictureOptions& options) {
-    return std::ranges::any_of(options.outputs,
-                               [](const std::string& file) { return extension_of(file) == ".png"; });
+    return has_outputs(options, ".png");
 }
 
 std::string default_output(const std::filesystem::path& scene) {
@@ -184,8 +204,7 @@ void check_outputs(const PictureOptions& options) {
                         "unknown layer '" + layer + "'; choose from: " + joined(known, ", "));
         }
     }
-    const auto is_exr = [](const std::string& file) { return extension_of(file) == ".exr"; };
-    if (!options.layers.empty() && std::ranges::none_of(options.outputs, is_exr)) {
+    if (!options.layers.empty() && !has_outputs(options, ".exr")) {
         throw Error(ErrorKind::invalid_argument,
                     "--layers asks for layers of EXR pictures, but no output is one; give -o FILE.exr");
     }
@@ -199,6 +218,7 @@ void check_outputs(const PictureOptions& options) {
     for (const std::string& file : options.outputs) {
         check_output(file);
     }
+    warn_of_idle_options(options);
 }
 
 Metadata camera_metadata(const SceneCamera& camera) {

@@ -183,6 +183,17 @@ TEST_F(BadInputOnDevice, MissingTextureIsGrey) {
     expect_error(render(write_scene(textured + kLamp), "--strict"), 3, "without --strict it is a warning");
 }
 
+/// Options that do not fit the files are no errors, because scripts give them to all files alike.
+TEST_F(BadInputOnDevice, OptionsThatChangeNothing) {
+    const auto scene = good_scene();
+    expect_picture(render(scene, "--exr-precision float"), "no output is an EXR file");
+    expect_picture(render(scene, "--exr-compression piz"), "no output is an EXR file");
+    const ProgramResult result = run_program("render " + quoted(scene) + " -o " + quoted(folder_ / "a.exr") +
+                                             " --exposure 1 --size 16x16 --spp 1 --vpls 16");
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "no output is a PNG file")) << result.errors;
+}
+
 TEST_F(BadInput, Options) {
     const auto scene = good_scene();
     for (const char* size : {"0x0", "-5x5", "1000000x1"}) {

@@ -197,6 +197,8 @@ TEST(MitsubaXml, DefaultsOverridesAndIncludes) {
     EXPECT_EQ(files.load_xml(body).triangles.size(), 2u);
     EXPECT_EQ(files.load_xml(body, {.parameters = {{"kind", "cube"}}, .strict = false}).triangles.size(),
               12u);
+    EXPECT_EQ(files.load_xml("<default name='k' value='cu'/><shape type='$kbe'/>").triangles.size(), 12u)
+        << "$k begins the word";
 }
 
 TEST(MitsubaXml, FilesAreLookedForInPathsAndInTheFolderOfTheScene) {

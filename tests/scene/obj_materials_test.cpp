@@ -318,5 +318,43 @@ TEST_F(ObjTextures, MapsOfNormalsCountAndHeightsAreLeftOut) {
     EXPECT_TRUE(has_note(scene_, "bump maps of OBJ materials are left out"));
 }
 
+/// Mitsuba 0.5 and 0.6 give each material of the file the BSDF of its name, or what its library says.
+TEST(Obj, ShapesOfOldMitsubaHaveSeveralMaterials) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl Red_1\nKd 0.8 0.1 0.1\nnewmtl green\nKd 0.1 0.8 0.1\n");
+    files.write("m.obj",
+                "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Red_1\nf 1 2 3\n"
+                "usemtl green\nf 3 2 1\n");
+    const auto colors = [&](const std::string& version, const std::string& bsdfs) {
+        const Scene scene = load_scene(files.write(
+            "scene.xml", "<scene version='" + version + "'><bsdf type='diffuse' id='own'>" +
+                             "<rgb name='reflectance' value='0.3'/></bsdf><shape type='obj'>" +
+                             "<string name='filename' value='m.obj'/>" + bsdfs + "</shape></scene>"));
+        EXPECT_FALSE(has_note(scene, "ignored"));
+        std::vector<float> greens;
+        for (const Triangle& triangle : scene.triangles) {
+            const Material& outer = scene.materials[triangle.material];
+            const bool has_sides = outer.model == NEARLIGHT_BSDF_TWO_SIDED;
+            greens.push_back((has_sides ? scene.materials[outer.child[0]] : outer).reflectance.value.y);
+        }
+        return greens;
+    };
+    using Greens = std::vector<float>;
+    EXPECT_EQ(colors("0.6.0", ""), (Greens{0.1f, 0.8f}));
+    EXPECT_EQ(colors("0.6.0", "<ref name='Red_1' id='own'/>"), (Greens{0.3f, 0.8f}));
+    EXPECT_EQ(colors("0.5.0", "<ref name='Red_1' id='own'/><ref name='green' id='own'/>"),
+              (Greens{0.3f, 0.3f}));
+    EXPECT_EQ(colors("0.6.0", "<ref id='own'/>"), (Greens{0.3f, 0.3f}));
+    EXPECT_EQ(colors("0.6.0", "<boolean name='loadMaterials' value='false'/>"), (Greens{0.5f, 0.5f}));
+    EXPECT_EQ(colors("3.0.0", ""), (Greens{0.5f, 0.5f})) << "libraries are not read there";
+}
+
+TEST(Obj, OtherShapesHaveOneBsdf) {
+    const SceneFiles files;
+    const std::string twice = "<bsdf type='diffuse'/><bsdf type='diffuse'/>";
+    EXPECT_TRUE(mentions(file_error([&] { files.load_xml("<shape type='cube'>" + twice + "</shape>"); }),
+                         "scene.xml:2: a shape has one BSDF, but this one has 2"));
+}
+
 }  // namespace
 }  // namespace nearlight::core

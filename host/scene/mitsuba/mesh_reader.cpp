@@ -8,7 +8,6 @@
 #include "host/base/thread_limit.h"
 #include "host/scene/mitsuba/mesh_attribute.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
-#include "host/scene/obj/obj_file.h"
 #include "host/scene/ply_loader.h"
 
 namespace nearlight::core::mitsuba {
@@ -43,13 +42,13 @@ MeshSource source_of(const Object& shape) {
 }
 
 MeshFile read_source(const MeshSource& source) {
-    if (source.type == "ply") {
-        return {.mesh = read_ply(source.file, source.attribute)};
-    }
     MeshFile file;
+    if (source.type == "ply") {
+        file.mesh = read_ply(source.file, source.attribute);
+        return file;
+    }
     if (source.type == "obj") {
-        ObjFile obj = read_obj(source.file, ObjUse::mitsuba_shape);
-        file = {.mesh = std::move(obj.mesh), .short_faces = obj.short_faces};
+        file = read_obj(source.file, ObjUse::mitsuba_shape);
     } else {
         file.mesh = read_serialized(source.file, source.index);
     }

@@ -9,14 +9,12 @@
 
 #include "host/scene/mesh.h"
 #include "host/scene/mitsuba/object.h"
+#include "host/scene/obj/obj_file.h"
 
 namespace nearlight::core::mitsuba {
 
-/// A mesh as its file has it.
-struct MeshFile {
-    Mesh mesh;
-    std::size_t short_faces = 0;  ///< faces of OBJ files that were left out
-};
+/// A mesh as its file has it. Of files other than OBJ it has the mesh alone.
+using MeshFile = ObjFile;
 
 /// Reads mesh files. Those of a scene's own shapes, one after another, are read by other threads ahead of the
 /// caller, because scenes of hundreds of files would else keep one core busy while the others wait.

@@ -2,6 +2,7 @@
 #include "host/scene/mitsuba/object.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "nearlight/error.h"
 
@@ -100,14 +101,20 @@ const Object* Object::texture(const std::string& name) const {
     return nullptr;
 }
 
-std::vector<const Object*> Object::nested(const std::string& wanted) const {
-    std::vector<const Object*> found;
+std::vector<const Child*> Object::children_of(const std::string& wanted) const {
+    std::vector<const Child*> found;
     for (const Child& child : children) {
         if (child.object->tag == wanted) {
             child.used = true;
-            found.push_back(child.object);
+            found.push_back(&child);
         }
     }
+    return found;
+}
+
+std::vector<const Object*> Object::nested(const std::string& wanted) const {
+    std::vector<const Object*> found;
+    std::ranges::transform(children_of(wanted), std::back_inserter(found), &Child::object);
     return found;
 }
 

@@ -78,6 +78,9 @@ struct Object {
     /// All nested objects with the tag, in order.
     [[nodiscard]] std::vector<const Object*> nested(const std::string& tag) const;
 
+    /// The same with their names, which are "" where the file gives none.
+    [[nodiscard]] std::vector<const Child*> children_of(const std::string& tag) const;
+
     /// Marks all nested objects with the tag as known.
     void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/shape_maker.h"
 
+#include <algorithm>
+
 #include "host/scene/material_model.h"
 #include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/shape_mesh.h"
-#include "host/scene/obj/obj_file.h"
+#include "host/scene/mitsuba/values.h"
+#include "host/scene/obj/obj_materials.h"
 #include "host/scene/scene_names.h"
 #include "nearlight/error.h"
 
@@ -125,9 +128,48 @@ uint ShapeMaker::medium_boundary() {
     return *medium_boundary_;
 }
 
-void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
-                            const std::string& instance) {
+uint ShapeMaker::material_of(const Object& shape, const Parameter& emitted) {
     const std::vector<const Object*> bsdfs = shape.nested("bsdf");
+    if (bsdfs.size() > 1) {
+        fail(shape.where, "a shape has one BSDF, but this one has " + std::to_string(bsdfs.size()));
+    }
+    // In Mitsuba 0.5 and 0.6, a medium alone has no surface.
+    if (bsdfs.empty() && shape.is_old && !shape.nested("medium").empty() && is_zero(emitted.value)) {
+        return medium_boundary();
+    }
+    return materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
+}
+
+std::vector<uint> ShapeMaker::materials_by_name(const Object& shape, const ObjFile& file) {
+    const std::vector<const Child*> bsdfs = shape.children_of("bsdf");
+    const bool uses_libraries = shape.boolean("load_materials", true) && !file.libraries.empty() &&
+                                shape.nested("emitter").empty() && shape.nested("medium").empty();
+    const bool has_one = std::ranges::any_of(bsdfs, [](const Child* bsdf) { return bsdf->name.empty(); });
+    if (has_one || (bsdfs.empty() && !uses_libraries)) {
+        return {};
+    }
+    const Parameter emitted = emission(shape);
+    std::vector<uint> materials(file.materials.size());
+    if (uses_libraries) {
+        materials = add_obj_materials(scene_, file, notes_);
+    } else {
+        std::ranges::fill(materials, materials_.index(nullptr, emitted));
+    }
+    for (const Child* bsdf : bsdfs) {
+        const auto is_its = [&](const std::string& name) { return snake_case(name) == bsdf->name; };
+        const auto found = std::ranges::find_if(file.materials, is_its);
+        if (found == file.materials.end()) {
+            note(notes_, bsdf->where, "the OBJ file has no material '" + bsdf->name + "'");
+        } else {
+            materials[static_cast<std::size_t>(found - file.materials.begin())] =
+                materials_.index(bsdf->object, emitted);
+        }
+    }
+    return materials;
+}
+
+void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& to_world,
+                            const std::string& instance) {
     if (!shape.nested("subsurface").empty()) {
         fail(shape.where, "subsurface scattering is not supported");
     }
@@ -135,17 +177,15 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
         note(notes_, medium->where, kMediaAreLeftOut);
     }
     const Parameter emitted = emission(shape);
-    // In Mitsuba 0.5 and 0.6, a medium alone has no surface.
-    const bool is_medium = bsdfs.empty() && shape.is_old && !shape.nested("medium").empty();
-    const uint material = is_medium && is_zero(emitted.value)
-                              ? medium_boundary()
-                              : materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
+    const Mesh& mesh = loaded.mesh;
+    const std::vector<uint> materials =
+        loaded.materials.empty() ? std::vector{material_of(shape, emitted)} : loaded.materials;
     const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
     const std::size_t first_triangle = scene_.triangles.size();
     begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));
     append_mesh(scene_, mesh,
                 {.to_world = to_world,
-                 .materials = {&material, 1},
+                 .materials = materials,
                  .face_normals = shape.boolean("face_normals", mesh.face_normals),
                  .flip_normals = flips},
                 notes_);
@@ -160,52 +200,63 @@ void ShapeMaker::add_placed(const Object& shape, const Mesh& mesh, const Mat4& t
         note(notes_, shape.where,
              "'max_smooth_angle' is ignored; normals are smooth, or flat with face_normals");
     }
-    shape.ignore({"max_smooth_angle", "collapse", "shape_index"});
+    shape.ignore({"max_smooth_angle", "collapse", "shape_index", "load_materials"});
     shape.report_unused(notes_);
 }
 
-Mesh ShapeMaker::load(const Object& shape) {
+ShapeMaker::LoadedMesh ShapeMaker::load(const Object& shape) {
     const std::string& type = shape.type;
     if (type == "obj" || type == "ply" || type == "serialized") {
         return load_file(shape);
     }
     if (type == "rectangle") {
-        return rectangle_mesh();
+        return {rectangle_mesh(), {}};
     }
     if (type == "cube") {
-        return cube_mesh();
+        return {cube_mesh(), {}};
     }
     if (type == "sphere") {
-        return sphere_mesh(spheres_.stacks(shape));
+        return {sphere_mesh(spheres_.stacks(shape)), {}};
     }
     if (type == "disk") {
-        return disk_mesh();
+        return {disk_mesh(), {}};
     }
     if (type == "cylinder") {
-        return cylinder_mesh();
+        return {cylinder_mesh(), {}};
     }
     fail_unknown_type(
         shape, "obj, ply, serialized, rectangle, cube, sphere, disk, cylinder, shapegroup, instance, merge");
 }
 
-// A file's v counts from the bottom of the texture in OBJ and from the top in the others, unless the scene
-// says otherwise.
-Mesh ShapeMaker::load_file(const Object& shape) {
+MeshFile ShapeMaker::read_file(const Object& shape) {
     std::future<MeshFile> file = reader_.read(shape);
     try {
-        auto [mesh, short_faces] = file.get();
-        note_short_faces(mesh, short_faces, notes_);
-        mesh.groups.clear();
-        mesh.objects.clear();
-        mesh.object_names.clear();
-        if (!shape.boolean("flip_tex_coords", shape.type == "obj")) {
-            flip_v(mesh);
-        }
-        return mesh;
+        return file.get();
     } catch (const Error& error) {
         throw Error(error.kind(), to_string(Note{*shape.where.file, shape.where.line, error.what()}),
                     error.setting());
     }
+}
+
+// A file's v counts from the bottom of the texture in OBJ and from the top in the others, unless the scene
+// says otherwise.
+ShapeMaker::LoadedMesh ShapeMaker::load_file(const Object& shape) {
+    MeshFile file = read_file(shape);
+    note_short_faces(file.mesh, file.short_faces, notes_);
+    LoadedMesh loaded;
+    if (shape.is_old && shape.type == "obj") {
+        loaded.materials = materials_by_name(shape, file);
+    }
+    loaded.mesh = std::move(file.mesh);
+    if (loaded.materials.empty()) {
+        loaded.mesh.groups.clear();
+    }
+    loaded.mesh.objects.clear();
+    loaded.mesh.object_names.clear();
+    if (!shape.boolean("flip_tex_coords", shape.type == "obj")) {
+        flip_v(loaded.mesh);
+    }
+    return loaded;
 }
 
 Parameter ShapeMaker::emission(const Object& shape) {

@@ -26,13 +26,25 @@ class ShapeMaker {
     void add(const Object& shape, uint depth);
     /// The index of a material that light passes as if it was not there.
     uint medium_boundary();
+    /// A mesh, and the materials of its groups where they are several.
+    struct LoadedMesh {
+        Mesh mesh;
+        std::vector<uint> materials;
+    };
+
     /// Adds the shape as an object of its name, after that of the instance whose part it is.
-    void add_placed(const Object& shape, const Mesh& mesh, const Mat4& to_world,
+    void add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& to_world,
                     const std::string& instance = {});
     [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;
     void add_instance(const Object& instance);
-    Mesh load(const Object& shape);
-    Mesh load_file(const Object& shape);
+    LoadedMesh load(const Object& shape);
+    LoadedMesh load_file(const Object& shape);
+    MeshFile read_file(const Object& shape);
+    /// The material of the whole shape.
+    uint material_of(const Object& shape, const Parameter& emitted);
+    /// The materials of an OBJ file's groups in Mitsuba 0.5 and 0.6: BSDFs with the names of groups, and
+    /// those of the file's libraries. Empty if the shape has one material.
+    std::vector<uint> materials_by_name(const Object& shape, const ObjFile& file);
     Parameter emission(const Object& shape);
 
     Scene& scene_;
@@ -41,7 +53,7 @@ class ShapeMaker {
     MaterialMaker& materials_;
     SphereDetail spheres_{{}};
     MeshReader reader_{{}};
-    std::map<const Object*, Mesh> group_meshes_;
+    std::map<const Object*, LoadedMesh> group_meshes_;
     std::size_t shape_count_ = 0;  ///< shapes and instances so far
     std::optional<uint> medium_boundary_{};
 };

@@ -25,6 +25,20 @@ XmlFile::XmlFile(const std::filesystem::path& file)
     }
 }
 
+namespace {
+
+/// The parameter with the longest name that `word` begins with: "$sizepx" may be "$size" and "px".
+Definitions::const_iterator longest_beginning(const Definitions& definitions, const std::string& word) {
+    for (std::size_t length = word.size(); length > 0; --length) {
+        if (const auto found = definitions.find(word.substr(0, length)); found != definitions.end()) {
+            return found;
+        }
+    }
+    return definitions.end();
+}
+
+}  // namespace
+
 Location XmlFile::location(std::ptrdiff_t offset) const {
     const auto next =
         std::upper_bound(line_starts_.begin(), line_starts_.end(), std::max<std::ptrdiff_t>(offset, 0));
@@ -39,14 +53,14 @@ std::string Element::text(const char* attribute) const {
                (std::isalnum(static_cast<unsigned char>(value[end])) || value[end] == '_')) {
             ++end;
         }
-        const std::string name = value.substr(at + 1, end - at - 1);
-        const auto found = definitions.find(name);
+        const std::string word = value.substr(at + 1, end - at - 1);
+        const auto found = longest_beginning(definitions, word);
         if (found == definitions.end()) {
-            fail(where, "parameter '$" + name + "' has no value; give it one with -D " + name +
+            fail(where, "parameter '$" + word + "' has no value; give it one with -D " + word +
                             "=VALUE, or with a <default>");
         }
         found->second.is_used = true;
-        value.replace(at, end - at, found->second.value);
+        value.replace(at, 1 + found->first.size(), found->second.value);
         at += found->second.value.size();
     }
     return value;

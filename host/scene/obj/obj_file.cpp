@@ -252,9 +252,6 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     if (obj.mesh.triangles.empty()) {
         throw Error(ErrorKind::file, file.string() + ": has no triangles");
     }
-    if (use != ObjUse::scene) {
-        obj.text = {};
-    }
     return obj;
 }
 

@@ -14,11 +14,9 @@ namespace nearlight::core {
 
 /// What a file is read as.
 enum class ObjUse {
-    /// Polygons may have any shape, smoothing groups and colours of vertices count, and the text is kept. A
-    /// mesh
-    /// of which no face has a normal is smooth as the smoothing groups say, or, if the file has no such
-    /// groups,
-    /// where faces meet at a small angle (add_crease_normals()).
+    /// Polygons may have any shape, and smoothing groups and colours of vertices count. A mesh of which no
+    /// face has a normal is smooth as the smoothing groups say, or, if the file has no such groups, where
+    /// faces meet at a small angle (add_crease_normals()).
     scene,
     /// As Mitsuba reads the file of a shape: polygons are fans; smoothing groups and colours do not count.
     mitsuba_shape,
@@ -29,7 +27,7 @@ struct ObjFile {
     std::vector<std::string> materials;  ///< names after `usemtl`; the first is "", for faces before any
     /// What follows `mtllib`, each once, by its line.
     std::map<int, std::string> libraries;
-    std::string text;             ///< of a scene, to find lines in, with continued lines joined
+    std::string text;             ///< of the file, to find lines in, with continued lines joined
     std::size_t short_faces = 0;  ///< faces of fewer than three corners, which were left out
     std::size_t crooked_faces =
         0;  ///< faces with so many corners that they became fans though they are not convex

@@ -9,7 +9,7 @@
 namespace nearlight::core {
 
 /// Adds the materials that the file uses to the scene. The result holds the index of each of
-/// ObjFile::materials; what is not defined is grey. `obj` has its text.
+/// ObjFile::materials; what is not defined is grey.
 std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes);
 
 }  // namespace nearlight::core
