@@ -17,8 +17,9 @@ void add_pass_options(CLI::App& command, PassOptions& options) {
     passes->check(CLI::Range(1u, 1'000'000u))->type_name("N");
     auto* const time = command.add_option(
         "--time", options.seconds,
-        "Make as many passes as fit in this time, including the time to read the scene, the last with fewer "
-        "samples; at least one of two samples per pixel, and never more than --passes");
+        "Make as many passes as fit in this time, including the time to read the scene but not that to "
+        "denoise the picture, the last with fewer samples; at least one of two samples per pixel, and never "
+        "more than --passes");
     time->check(number_from(0.0, 1e9))->type_name("SECONDS");
     auto* const error = command.add_option(
         "--error", options.error,
