@@ -174,6 +174,25 @@ TEST(Obj, BlendersMetalAndPlastic) {
     EXPECT_EQ(material("Ns 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n").model, NEARLIGHT_BSDF_DIFFUSE);
 }
 
+/// Before Blender 3, only the OBJ file told the version, and 900 was the exponent of smooth surfaces.
+TEST(Obj, OlderBlendersRoughness) {
+    const SceneFiles files;
+    files.write("b.mtl",
+                "# Blender MTL File: 'a.blend'\n# Material Count: 1\n\nnewmtl m\nNs 225\nKa 1 1 1\n"
+                "Kd 1 1 1\nKs 0.5 0.5 0.5\nNi 1.45\nillum 2\n");
+    const auto material = [&](const std::string& version) {
+        const Scene scene = load_obj(files, "# Blender v" + version +
+                                                " OBJ File: 'a.blend'\nmtllib b.mtl\nv 0 0 0\nv 1 0 0\n"
+                                                "v 0 1 0\nusemtl m\nf 1 2 3\n");
+        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    };
+    for (const char* version : {"2.80 (sub 75)", "2.93.1"}) {
+        EXPECT_EQ(material(version).model, NEARLIGHT_BSDF_PRINCIPLED) << version;
+        EXPECT_NEAR(material(version).roughness.value.x, 0.5f, 1e-6f) << version;
+    }
+    EXPECT_EQ(material("2.79 (sub 0)").model, NEARLIGHT_BSDF_PLASTIC);
+}
+
 TEST(Obj, TfTintsGlass) {
     const SceneFiles files;
     const auto pane = [&](const std::string& entry) {

@@ -58,8 +58,8 @@ double alpha_of_exponent(double exponent) {
     return std::sqrt(2.0 / (std::min(std::max(0.0, exponent), 1e6) + 2.0));
 }
 
-float blenders_roughness(float exponent) {
-    return 1.0f - std::sqrt(std::clamp(exponent, 0.0f, 1000.0f) / 1000.0f);
+float blenders_roughness(float exponent, float smooth_exponent) {
+    return 1.0f - std::sqrt(std::clamp(exponent / smooth_exponent, 0.0f, 1.0f));
 }
 
 float blenders_metalness(const tinyobj::material_t& entry) {

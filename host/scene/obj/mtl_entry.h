@@ -17,7 +17,7 @@ inline Vec3 clamped(Vec3 c) {
 
 /// What the words of an entry mean together.
 enum class Look { glass, principled, mirror, blenders_principled, plastic, diffuse };
-/// `is_blenders`: the exporter of Blender 3 or later wrote the entry.
+/// `is_blenders`: the exporter of Blender 2.80 or later wrote the entry.
 Look look_of(const tinyobj::material_t& entry, bool is_blenders);
 
 /// Illumination model 1 has no highlights, whatever Ks says.
@@ -28,8 +28,8 @@ double index_of(const tinyobj::material_t& entry);
 /// The roughness α of Beckmann's microfacets that are as rough as a highlight with the exponent Ns [Walter et
 /// al., Microfacet Models for Refraction through Rough Surfaces, 2007].
 double alpha_of_exponent(double exponent);
-/// The inverse of Blender's Ns = 1000·(1 − roughness)².
-float blenders_roughness(float exponent);
+/// The inverse of Blender's Ns = smooth_exponent·(1 − roughness)².
+float blenders_roughness(float exponent, float smooth_exponent);
 /// Blender writes the metalness of what is metal as Ka.
 float blenders_metalness(const tinyobj::material_t& entry);
 /// The colour with its largest component at 1, or white for black. Programs agree about the colour of Tf, but

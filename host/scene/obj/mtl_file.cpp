@@ -73,16 +73,24 @@ void complete_options(std::string& text) {
     text = std::move(completed);
 }
 
-/// Whether the text begins with "# Blender 3.3.1 MTL File": the exporter of Blender 3 and later. That of
-/// older versions wrote no number, and meant other things.
-bool is_new_blenders(std::string_view text) {
+/// MaterialLibrary::blenders_exponent. From Blender 3 on, libraries begin with "# Blender 3.3.1 MTL File".
+/// Before, only the OBJ file beside them told the version, and those before 2.80 meant other things.
+float blenders_exponent(std::string_view text, std::string_view text_of_obj) {
     constexpr std::string_view kBeginning = "# Blender ";
-    return text.starts_with(kBeginning) && text.size() > kBeginning.size() &&
-           text[kBeginning.size()] >= '0' && text[kBeginning.size()] <= '9';
+    if (!text.starts_with(kBeginning) || text.size() == kBeginning.size()) {
+        return 0.0f;
+    }
+    const char first = text[kBeginning.size()];
+    if (first >= '0' && first <= '9') {
+        return 1000.0f;
+    }
+    const bool is_late =
+        text_of_obj.starts_with("# Blender v2.8") || text_of_obj.starts_with("# Blender v2.9");
+    return is_late ? 900.0f : 0.0f;
 }
 
 /// Empty if the file cannot be read.
-std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
+std::optional<MaterialLibrary> read_library(const std::filesystem::path& file, std::string_view text_of_obj) {
     MaterialLibrary library;
     library.file = file;
     try {
@@ -90,7 +98,7 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file) {
     } catch (const Error&) {
         return std::nullopt;
     }
-    library.is_blenders = is_new_blenders(library.text);
+    library.blenders_exponent = blenders_exponent(library.text, text_of_obj);
     tidy_lines(library.text);
     complete_options(library.text);
     TextBuffer buffer(library.text);
@@ -121,7 +129,8 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
     std::vector<MaterialLibrary> libraries;
     for (const auto& [line, text] : obj.libraries) {
         for (const std::string& name : names_in(text, obj.mesh.source)) {
-            if (std::optional<MaterialLibrary> library = read_library(resolve_path(obj.mesh.source, name))) {
+            if (std::optional<MaterialLibrary> library =
+                    read_library(resolve_path(obj.mesh.source, name), obj.text)) {
                 libraries.push_back(std::move(*library));
             } else {
                 notes.approximation(obj.mesh.source, line,

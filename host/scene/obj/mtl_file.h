@@ -23,8 +23,11 @@ struct MaterialLibrary {
     std::unordered_map<std::string, TextLine> lines;  ///< where materials begin
     std::map<std::string, int> names;                 ///< indices into `materials`
     std::vector<tinyobj::material_t> materials;
-    /// The exporter of Blender 3 and later gives Ns and Ka meanings of their own.
-    bool is_blenders = false;
+    /// Ns of smooth surfaces where the exporter of Blender 2.80 or later wrote the file, which gives Ns and
+    /// Ka meanings of their own; 0 elsewhere.
+    float blenders_exponent = 0;
+
+    [[nodiscard]] bool is_blenders() const { return blenders_exponent > 0; }
 };
 
 /// The libraries that the file names and that can be read; notes tell the others. A line may name one

@@ -51,7 +51,7 @@ class ObjMaterials {
     uint add(const MaterialSource& source) {
         warn_of_what_is_left_out(source);
         uint made = 0;
-        switch (look_of(source.entry, source.library.is_blenders)) {
+        switch (look_of(source.entry, source.library.is_blenders())) {
             case Look::glass:
                 made = add_glass(source);
                 break;
@@ -168,7 +168,8 @@ class ObjMaterials {
     Material blenders_principled(const MaterialSource& source) {
         Material material = principled_material(scene_, index_of(source.entry));
         material.reflectance = diffuse(source).reflectance;
-        material.roughness = parameter_of(blenders_roughness(source.entry.shininess));
+        material.roughness =
+            parameter_of(blenders_roughness(source.entry.shininess, source.library.blenders_exponent));
         material.metallic = parameter_of(blenders_metalness(source.entry));
         return material;
     }
