@@ -368,11 +368,20 @@ TEST(Obj, ShapesOfOldMitsubaHaveSeveralMaterials) {
     EXPECT_EQ(colors("3.0.0", ""), (Greens{0.5f, 0.5f})) << "libraries are not read there";
 }
 
-TEST(Obj, OtherShapesHaveOneBsdf) {
+TEST(Obj, OtherShapesHaveOneBsdfAndOneEmitter) {
     const SceneFiles files;
     const std::string twice = "<bsdf type='diffuse'/><bsdf type='diffuse'/>";
     EXPECT_TRUE(mentions(file_error([&] { files.load_xml("<shape type='cube'>" + twice + "</shape>"); }),
                          "scene.xml:2: a shape has one BSDF, but this one has 2"));
+    const std::string lamps = "<emitter type='area'/><emitter type='area'/>";
+    EXPECT_TRUE(mentions(file_error([&] { files.load_xml("<shape type='cube'>" + lamps + "</shape>"); }),
+                         "scene.xml:2: a shape has only one emitter"));
+    const Scene old =
+        load_scene(files.write("scene.xml",
+                               "<scene version='0.6.0'><shape type='cube'><bsdf type='conductor'/>"
+                               "<bsdf type='dielectric'/></shape></scene>"));
+    EXPECT_EQ(old.materials[old.triangles.at(0).material].model, NEARLIGHT_BSDF_DIELECTRIC);
+    EXPECT_TRUE(has_note(old, "the last one counts"));
 }
 
 }  // namespace

@@ -131,13 +131,17 @@ uint ShapeMaker::medium_boundary() {
 uint ShapeMaker::material_of(const Object& shape, const Parameter& emitted) {
     const std::vector<const Object*> bsdfs = shape.nested("bsdf");
     if (bsdfs.size() > 1) {
-        fail(shape.where, "a shape has one BSDF, but this one has " + std::to_string(bsdfs.size()));
+        const std::string what = "a shape has one BSDF, but this one has " + std::to_string(bsdfs.size());
+        if (!shape.is_old) {
+            fail(shape.where, what);
+        }
+        note(notes_, shape.where, what + "; the last one counts, as in Mitsuba 0.5 and 0.6");
     }
     // In Mitsuba 0.5 and 0.6, a medium alone has no surface.
     if (bsdfs.empty() && shape.is_old && !shape.nested("medium").empty() && is_zero(emitted.value)) {
         return medium_boundary();
     }
-    return materials_.index(bsdfs.empty() ? nullptr : bsdfs.front(), emitted);
+    return materials_.index(bsdfs.empty() ? nullptr : bsdfs.back(), emitted);
 }
 
 std::vector<uint> ShapeMaker::materials_by_name(const Object& shape, const ObjFile& file) {
@@ -263,6 +267,9 @@ Parameter ShapeMaker::emission(const Object& shape) {
     const std::vector<const Object*> emitters = shape.nested("emitter");
     if (emitters.empty()) {
         return parameter_of(0.0f);
+    }
+    if (emitters.size() > 1) {
+        fail(emitters[1]->where, "a shape has only one emitter");
     }
     const Object& emitter = *emitters.front();
     if (emitter.type != "area") {
