@@ -10,6 +10,9 @@
 
 namespace nearlight::core {
 
+/// The number of receivers of a bundle that is not the last.
+inline constexpr uint kBundleReceivers = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
+
 /// Divides packets into bundles of NEARLIGHT_BUNDLE_PACKETS consecutive ones; the last bundle may have fewer.
 /// kernels/shared/packet_order.h decides which packets of a picture follow one another.
 struct BundleLayout {

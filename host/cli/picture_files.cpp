@@ -76,17 +76,15 @@ bool has_outputs(const PictureOptions& options, std::string_view extension) {
 
 /// Names options that change none of the files.
 void warn_of_idle_options(const PictureOptions& options) {
-    if (!options.outputs.empty() && !has_outputs(options, ".exr") &&
-        (options.is_full_precision || options.compression != ExrCompression::zip)) {
-        spdlog::warn(
-            "--exr-precision and --exr-compression change nothing, because no output is an EXR file");
+    const bool has_exr = has_outputs(options, ".exr");
+    const bool has_png = has_outputs(options, ".png");
+    const bool names_exr = options.is_full_precision || options.compression != ExrCompression::zip;
+    const bool names_look = !options.screen.exposure.empty() || options.screen.curve;
+    if (has_png && !has_exr && names_exr) {
+        spdlog::warn("--exr-precision and --exr-compression change nothing: no output is an EXR file");
     }
-    if (!options.outputs.empty() && !has_screen_pictures(options) &&
-        (!options.screen.exposure.empty() || options.screen.curve)) {
-        spdlog::warn(
-            "--exposure and --tonemap change nothing, because no output is a PNG file; EXR files keep the "
-            "light "
-            "as it is");
+    if (has_exr && !has_png && names_look) {
+        spdlog::warn("--exposure and --tonemap change nothing: no output is a PNG file");
     }
 }
 

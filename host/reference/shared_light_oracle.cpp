@@ -14,8 +14,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kBundleReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
-
 bool is_absent(const ReceiverPoint& point) {
     return point.normal == Vec3{0, 0, 0};
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/base/message.h"
+#include "host/base/receiver_bundles.h"
 #include "host/base/receivers.h"
 
 namespace nearlight::core {
@@ -43,7 +44,7 @@ constexpr double kWeightOfSharedError = 3;
 constexpr double kBrightestPart = 0.01;
 /// RayBudget::shared_limit ÷ the mean radiance of places. As many receivers share what one of them finds, so
 /// that a find up to the limit brings to each of them about as much as it has anyway (bench/log/sharing.md).
-constexpr double kSharedLimit = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
+constexpr double kSharedLimit = kBundleReceivers;
 
 using Packets = std::vector<IrradiancePacket>;
 

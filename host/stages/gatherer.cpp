@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "host/base/receiver_bundles.h"
 #include "host/base/stopwatch.h"
 
 namespace nearlight::core {
@@ -17,8 +18,6 @@ template <typename Source>
 std::size_t chunk_of(const GatherInput<Source>& input) {
     return input.group_size != 0 ? input.group_size : kChunk;
 }
-
-constexpr std::uint64_t kBundleSize = std::uint64_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
 
 /// The maximum number of pairs in a launch, however fast the device is.
 constexpr double kMaxLaunchPairs = 0x1p40;
@@ -104,7 +103,7 @@ template <typename Source>
 Gatherer::Part Gatherer::next_part(const GatherInput<Source>& input, const Part& done, std::size_t end_bundle,
                                    std::uint64_t pair_budget) const {
     const std::uint64_t chunk = chunk_of(input);
-    const std::uint64_t chunk_pairs = chunk * kBundleSize;
+    const std::uint64_t chunk_pairs = chunk * std::uint64_t{kBundleReceivers};
     Part part = done;
     if (done.end_vpl >= input.asked_count()) {
         const std::size_t bundles =
@@ -152,7 +151,7 @@ void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Pa
 template <typename Source, typename... More>
 void Gatherer::launch_with(Kernel& kernel, const GatherInput<Source>& input, const Part& part,
                            GatherSums<Source>& sums, const More&... more) {
-    const std::size_t receivers = (part.end_bundle - part.first_bundle) * kBundleSize;
+    const std::size_t receivers = (part.end_bundle - part.first_bundle) * std::uint64_t{kBundleReceivers};
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
         kernel.launch(items, local_size, nodes, triangles, input.vpls, input.receivers, params_,

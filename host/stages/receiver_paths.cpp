@@ -8,10 +8,8 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kBundleReceivers = NEARLIGHT_BUNDLE_PACKETS * NEARLIGHT_PACKET_SIZE;
-
-/// How many receivers of a bundle a work-item finds the spacing of. All that have the same bundle read it
-/// whole, but GPUs need many work-items.
+/// How many receivers of a bundle a work-item of receiver_spacing has. Each reads the whole bundle, but GPUs
+/// need many work-items.
 uint spacing_part(const Device& device) {
     return device.is_cpu() ? kBundleReceivers : 8;
 }
@@ -36,7 +34,6 @@ ReceiverPaths::ReceiverPaths(Device& device)
     : program_(device, "receiver_paths.cl", kViewProgram),
       receiver_paths_(program_, "receiver_paths"),
       receiver_spacing_(program_, "receiver_spacing"),
-      spacing_part_(spacing_part(device)),
       none_found_(device, 0, {}) {}
 
 void ReceiverPaths::run(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
@@ -48,9 +45,10 @@ void ReceiverPaths::run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePac
                                 Buffer<IrradiancePacket>& indirect, FoundLights& found) {
     if (batch.settings.shares_reflections) {
         const auto packets = static_cast<uint>(batch.packet_count);
-        receiver_spacing_.launch_items(
-            BundleLayout{packets}.bundle_count() * (kBundleReceivers / spacing_part_), batch.receivers,
-            packets, batch.settings.max_edges, spacing_part_, found.spacing);
+        const uint part = spacing_part(program_.device());
+        receiver_spacing_.launch_items(BundleLayout{packets}.bundle_count() * (kBundleReceivers / part),
+                                       batch.receivers, packets, batch.settings.max_edges, part,
+                                       found.spacing);
     }
     launch(batch, shared_kinds(batch.settings), direct, indirect, found);
 }

@@ -78,7 +78,6 @@ class ReceiverPaths {
     Program program_;
     Kernel receiver_paths_;
     Kernel receiver_spacing_;
-    uint spacing_part_;
     FoundLights none_found_;
 };
 

@@ -7,7 +7,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr std::size_t kMaskWords = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE / 32;
+constexpr std::size_t kMaskWords = kBundleReceivers / 32;
 
 Kernel visibility_kernel(Device& device, GatherKernel kernel) {
     if (kernel == GatherKernel::rays) {

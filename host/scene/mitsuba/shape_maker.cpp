@@ -148,8 +148,9 @@ std::vector<uint> ShapeMaker::materials_by_name(const Object& shape, const ObjFi
     const std::vector<const Child*> bsdfs = shape.children_of("bsdf");
     const bool uses_libraries = shape.boolean("load_materials", true) && !file.libraries.empty() &&
                                 shape.nested("emitter").empty() && shape.nested("medium").empty();
-    const bool has_one = std::ranges::any_of(bsdfs, [](const Child* bsdf) { return bsdf->name.empty(); });
-    if (has_one || (bsdfs.empty() && !uses_libraries)) {
+    const bool has_one_for_all =
+        std::ranges::any_of(bsdfs, [](const Child* bsdf) { return bsdf->name.empty(); });
+    if (has_one_for_all || (bsdfs.empty() && !uses_libraries)) {
         return {};
     }
     const Parameter emitted = emission(shape);

@@ -8,6 +8,19 @@
 #include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {
+namespace {
+
+/// The parameter with the longest name that `word` begins with: "$sizepx" may be "$size" and "px".
+Definitions::const_iterator longest_beginning(const Definitions& definitions, const std::string& word) {
+    for (std::size_t length = word.size(); length > 0; --length) {
+        if (const auto found = definitions.find(word.substr(0, length)); found != definitions.end()) {
+            return found;
+        }
+    }
+    return definitions.end();
+}
+
+}  // namespace
 
 XmlFile::XmlFile(const std::filesystem::path& file)
     : file_(std::make_shared<const std::filesystem::path>(file)), line_starts_{0} {
@@ -24,20 +37,6 @@ XmlFile::XmlFile(const std::filesystem::path& file)
         fail(location(result.offset), std::string("broken XML: ") + result.description());
     }
 }
-
-namespace {
-
-/// The parameter with the longest name that `word` begins with: "$sizepx" may be "$size" and "px".
-Definitions::const_iterator longest_beginning(const Definitions& definitions, const std::string& word) {
-    for (std::size_t length = word.size(); length > 0; --length) {
-        if (const auto found = definitions.find(word.substr(0, length)); found != definitions.end()) {
-            return found;
-        }
-    }
-    return definitions.end();
-}
-
-}  // namespace
 
 Location XmlFile::location(std::ptrdiff_t offset) const {
     const auto next =

@@ -50,26 +50,9 @@ class ObjMaterials {
     // The index of the material.
     uint add(const MaterialSource& source) {
         warn_of_what_is_left_out(source);
-        uint made = 0;
-        switch (look_of(source.entry, source.library.is_blenders())) {
-            case Look::glass:
-                made = add_glass(source);
-                break;
-            case Look::mirror:
-                made = dissolve(source, add_mirror(source));
-                break;
-            case Look::principled:
-                made = dissolve(source, add_two_sided(scene_, principled(source)));
-                break;
-            case Look::blenders_principled:
-                made = dissolve(source, add_two_sided(scene_, blenders_principled(source)));
-                break;
-            case Look::plastic:
-                made = dissolve(source, add_two_sided(scene_, plastic(source)));
-                break;
-            case Look::diffuse:
-                made = dissolve(source, add_two_sided(scene_, diffuse(source)));
-        }
+        const Look look = look_of(source.entry, source.library.is_blenders());
+        const uint made =
+            look == Look::glass ? add_glass(source) : dissolve(source, add_opaque(source, look));
         scene_.materials[made].emission = emission(source);
         return made;
     }
@@ -100,6 +83,23 @@ class ObjMaterials {
     uint add(const Material& material) {
         scene_.materials.push_back(material);
         return static_cast<uint>(scene_.materials.size() - 1);
+    }
+
+    uint add_opaque(const MaterialSource& source, Look look) {
+        return look == Look::mirror ? add_mirror(source) : add_two_sided(scene_, one_sided(source, look));
+    }
+
+    Material one_sided(const MaterialSource& source, Look look) {
+        switch (look) {
+            case Look::principled:
+                return principled(source);
+            case Look::blenders_principled:
+                return blenders_principled(source);
+            case Look::plastic:
+                return plastic(source);
+            default:
+                return diffuse(source);
+        }
     }
 
     /// A body where the model refracts and the surface has no border, otherwise a pane. Tf tints it.
