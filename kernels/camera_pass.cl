@@ -57,8 +57,8 @@ static inline CameraReceiver absent_receiver(void) {
     receiver.vertex.flags = 0;
     receiver.vertex.emitted = store3((float3)(0.0f));
     receiver.vertex.filter_weight = 0.0f;
-    receiver.vertex.traced = store3((float3)(0.0f));
-    receiver.vertex.pad0 = 0.0f;
+    receiver.vertex.traced_direct = receiver.vertex.traced_indirect = store3((float3)(0.0f));
+    receiver.vertex.pad0 = receiver.vertex.pad1 = 0.0f;
     receiver.seen.light_samples = 0;
     return receiver;
 }
@@ -82,7 +82,7 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
     path.mode = BSDF_CAMERA;
     path.t_min = start.ray.t_min;
     path.t_max = start.ray.t_max;
-    path.emitted = path.traced = (float3)(0.0f);
+    path.emitted = (float3)(0.0f);
     path.undivided = branch_count > 1;
     path.filter_weight = start.film.weight;
     path.flags = start.film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
@@ -113,12 +113,12 @@ static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sa
     return quota;
 }
 
-/// Adds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
+/// Finds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
 /// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
 /// left.
-static inline void trace_light(const SceneView* scene, const CameraLimits* limits, CameraPath* path,
+static inline void trace_light(const SceneView* scene, const CameraLimits* limits, const CameraPath* path,
                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
-                               uint max_edges) {
+                               uint max_edges, CameraVertex* vertex) {
     const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
     const PathLimits ray = {.max_edges = max_edges,
                             .vpl_edges = max_edges,
@@ -132,8 +132,8 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
     const ReceivedLight light = received_light(
         scene, &at, &ray, random_uint4((uint4)(path->sequence, max_edges, 0x7ace5u, 0x3u)), &finds);
     const float3 response = path->ray.throughput * albedo * M_1_PI_F;
-    path->emitted += response * light.direct;
-    path->traced += response * light.indirect;
+    vertex->traced_direct = store3(response * light.direct);
+    vertex->traced_indirect = store3(response * light.indirect);
 }
 
 /// The surface that the path meets at a step. Branch 0 sets `first` to that of the first step, and branch 1
@@ -177,7 +177,8 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
         const uint way = follow_surface(scene, path, &hit, &surface, branch, &quota, &numbers, &albedo);
         const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
         if (way == WAY_RECEIVER && is_weak) {
-            trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1);
+            trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1,
+                        &receiver.vertex);
         } else if (way == WAY_RECEIVER) {
             set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
             if (quota.bundle_rays > 0) {
@@ -191,7 +192,6 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
         sees_sky = sees_sky || any(path->ray.direction != straight);
     }
     receiver.vertex.emitted = store3(path->emitted);
-    receiver.vertex.traced = store3(path->traced);
     return receiver;
 }
 
@@ -200,7 +200,7 @@ static inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));
     receiver->vertex.emitted = store3((float3)(0.0f));
-    receiver->vertex.traced = store3((float3)(0.0f));
+    receiver->vertex.traced_direct = receiver->vertex.traced_indirect = store3((float3)(0.0f));
     receiver->normal = (float3)(0.0f);
     receiver->seen.light_samples = 0;
 }
@@ -219,10 +219,24 @@ static inline void store_receiver(const CameraReceiver* from, global ReceiverPac
     *vertex = from->vertex;
 }
 
+/// The pixel of the picture for a place of the launch, which has `width` places in a row. Beyond the end of a
+/// list it is outside of every picture.
+static inline uint2 launched_pixel(PixelList list, const global uint* pixels, uint width, uint2 place) {
+    const uint number = place.y * width + place.x;
+    if (list.count == 0) {
+        return place;
+    }
+    if (number >= list.count) {
+        return (uint2)(~0u);
+    }
+    const uint pixel = pixels[list.first + number];
+    return (uint2)(list.x + pixel % list.width, list.y + pixel / list.width);
+}
+
 kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
-                        const global CloseRange* restrict close_range, CameraPassParams params,
-                        global ReceiverPacket* restrict receivers, global CameraVertex* restrict vertices,
-                        global SeenSurface* restrict seen) {
+                        const global CloseRange* restrict close_range, const global uint* restrict pixels,
+                        CameraPassParams params, global ReceiverPacket* restrict receivers,
+                        global CameraVertex* restrict vertices, global SeenSurface* restrict seen) {
     const PacketOrder order = params.order;
     const uint index = (uint)get_global_id(0);
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -234,20 +248,22 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const uint x = params.first_tile_column * NEARLIGHT_TILE_SIZE +
-                   pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave);
-    const uint y = params.first_tile_row * NEARLIGHT_TILE_SIZE +
-                   pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave);
-    const bool in_picture = x < camera->width && y < camera->height;
-    const CameraPath start = start_path(camera, x, y, params.first_sample + sample, params.sequence_length,
-                                        order.branch_count, params.seed);
+    const uint2 place =
+        (uint2)(params.first_tile_column * NEARLIGHT_TILE_SIZE +
+                    pixel_of_tile(column, lane % NEARLIGHT_TILE_SIZE, order.bundle_columns, order.interleave),
+                params.first_tile_row * NEARLIGHT_TILE_SIZE +
+                    pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave));
+    const uint2 at = launched_pixel(params.list, pixels, order.tile_columns * NEARLIGHT_TILE_SIZE, place);
+    const bool in_picture = at.x < camera->width && at.y < camera->height;
+    const CameraPath start = start_path(camera, at.x, at.y, params.first_sample + sample,
+                                        params.sequence_length, order.branch_count, params.seed);
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;
     for (uint branch = 0; branch < order.branch_count; ++branch) {
         if (in_picture && (branch == 0 || divided)) {
             CameraPath path = start;
-            path.sequence = sequence_key(y * camera->width + x, start.sample, branch, params.seed);
+            path.sequence = sequence_key(at.y * camera->width + at.x, start.sample, branch, params.seed);
             receiver = follow_path(&scene, camera, close_range, &params.limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {

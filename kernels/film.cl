@@ -51,8 +51,10 @@ static inline void add_light(global float* pixel, const CameraVertex* vertex,
     const float3 reflectance = load3(vertex->throughput) * load3(vertex->albedo);
     const float weight = vertex->filter_weight;
     const float3 response = weight * reflectance / M_PI_F;
-    add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, weight * load3(vertex->emitted) + response * light->direct);
-    add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, weight * load3(vertex->traced) + response * light->indirect);
+    const float3 direct = load3(vertex->emitted) + load3(vertex->traced_direct);
+    add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, weight * direct + response * light->direct);
+    add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
+               weight * load3(vertex->traced_indirect) + response * light->indirect);
     add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
 }
 
@@ -93,9 +95,9 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         for (uint branch = 0; branch < order.branch_count; ++branch) {
             const uint packet = packet_at(order, column, row, sample, branch);
             const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
-            const IrradianceOfSample light = {irradiance_of(direct + packet, lane),
-                                              irradiance_of(gathered + packet, lane) +
-                                                  irradiance_of(indirect + packet, lane)};
+            const IrradianceOfSample light = {
+                irradiance_of(direct + packet, lane),
+                irradiance_of(gathered + packet, lane) + irradiance_of(indirect + packet, lane)};
             add_light(pixel, &vertex, &light);
             if (first_sample + sample < samples_per_pixel / 2) {
                 keep_light(pixel);

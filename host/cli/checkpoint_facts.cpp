@@ -56,6 +56,7 @@ Facts settings_facts(const Scene& scene, const RenderSettings& settings) {
     facts["interleave"] = gather.interleave;
     facts["--direct-samples"] = or_auto(gather.direct_samples_per_pixel);
     facts[kCompensate] = on_off(gather.compensate);
+    facts["--refine"] = on_off(gather.refine);
     facts["--rays"] = gather.rays_per_pixel;
     facts["--roulette"] = gather.roulette;
     facts["indirect_only"] = gather.indirect_only;

@@ -59,6 +59,18 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
         ->capture_default_str();
 }
 
+void add_refine_option(CLI::App& command, GatherSettings& gather) {
+    command
+        .add_option_function<std::string>(
+            "--refine", [&gather](const std::string& text) { gather.refine = text == "on"; },
+            "on: pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up "
+            "to "
+            "8 times the camera paths of others, for light that needs no VPLs; off: all have the same number")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off")
+        ->default_str("on");
+}
+
 void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot) {
     command
         .add_option("--range", texts.range,

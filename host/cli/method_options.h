@@ -24,6 +24,8 @@ enum class Pilot { runs, is_left_out };
 
 /// Adds --spp and --direct-samples.
 void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot);
+/// Adds --refine, for commands whose passes have several samples.
+void add_refine_option(CLI::App& command, GatherSettings& gather);
 /// Adds --sampler, --policy, --vpls, --cuts, --vpl-set and --close-fraction.
 void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
 /// Adds --range, --clamp-radius, --compensate, --rays, --max-depth, --seed and --roulette.

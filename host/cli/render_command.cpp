@@ -135,6 +135,7 @@ void add_render_command(CommandLine& line) {
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
     add_sample_options(command, options->settings.gather, Pilot::runs);
+    add_refine_option(command, options->settings.gather);
     command
         .add_option(
             "--strata", options->settings.gather.strata,

@@ -11,6 +11,7 @@
 #include "host/base/words.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
+#include "kernels/shared/camera_pass.h"
 #include "kernels/shared/film_layers.h"
 
 namespace nearlight::core {
@@ -289,8 +290,10 @@ MemoryEstimate estimate_memory(const Scene& scene) {
     constexpr std::uint64_t kReceiverBytes =
         (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE +
         sizeof(CameraVertex);
+    constexpr std::uint64_t kRefinementBytes = 2 * (sizeof(CameraLight) + sizeof(uint));
     constexpr std::uint64_t kPixelBytes =
-        kReceiverBytes + (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
+        kReceiverBytes + kRefinementBytes +
+        (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
     MemoryEstimate estimate;
     estimate.host = {{"geometry", geometry},
                      {"trees", trees},

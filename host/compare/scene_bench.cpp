@@ -126,6 +126,7 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
             .gather = {.samples_per_pixel = settings_.samples_per_pixel,
                        .strata = 1,
                        .compensate = false,
+                       .refine = false,
                        .indirect_only = true},
             .seed = seed};
 }

@@ -11,14 +11,6 @@
 namespace nearlight::core {
 namespace {
 
-/// The packet and the lane that hold a sample of a pixel.
-std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
-                                             uint branch) {
-    constexpr uint kTile = NEARLIGHT_TILE_SIZE;
-    const std::size_t tile = y / kTile * layout.tile_columns() + x / kTile;
-    return {(tile * layout.samples + sample) * layout.branches + branch, y % kTile * kTile + x % kTile};
-}
-
 /// The packet and the lane of the sample whose position and depth a pixel shows: the first on its own square
 /// that met something, otherwise the first that did; empty if none did.
 std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSamples& samples,
@@ -48,6 +40,13 @@ double variance_of(double first, double second, uint samples) {
 
 }  // namespace
 
+std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
+                                             uint branch) {
+    constexpr uint kTile = NEARLIGHT_TILE_SIZE;
+    const std::size_t tile = y / kTile * layout.tile_columns() + x / kTile;
+    return {(tile * layout.samples + sample) * layout.branches + branch, y % kTile * kTile + x % kTile};
+}
+
 FilmSamples random_film_samples(const FilmLayout& layout) {
     Pcg32 random(1);
     const auto color = [&] {
@@ -75,8 +74,10 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
                                         .flags = random.next() % 4,
                                         .emitted = color(),
                                         .filter_weight = 2.0f * random.uniform() - 0.5f,
-                                        .traced = color(),
-                                        .pad0 = 0.0f});
+                                        .traced_direct = color(),
+                                        .pad0 = 0.0f,
+                                        .traced_indirect = color(),
+                                        .pad1 = 0.0f});
         }
     }
     return samples;
@@ -98,10 +99,11 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
             const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
             const double weight = vertex.filter_weight;
-            const double direct = weight * (channel(vertex.emitted, axis) +
-                                            reflectance / kPi * (&samples.direct[packet].r[0])[at]);
+            const double direct =
+                weight * (channel(vertex.emitted, axis) + channel(vertex.traced_direct, axis) +
+                          reflectance / kPi * (&samples.direct[packet].r[0])[at]);
             const double indirect =
-                weight * (channel(vertex.traced, axis) +
+                weight * (channel(vertex.traced_indirect, axis) +
                           reflectance / kPi *
                               (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
                                static_cast<double>((&samples.indirect[packet].r[0])[at])));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "host/base/math.h"
@@ -34,6 +35,10 @@ struct FilmSamples {
     std::vector<IrradiancePacket> gathered;
     std::vector<IrradiancePacket> indirect;
 };
+
+/// The packet and the lane of a branch of a sample of pixel (x, y).
+std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
+                                             uint branch);
 
 /// Samples with random numbers in every field. Some camera rays meet nothing.
 FilmSamples random_film_samples(const FilmLayout& layout);

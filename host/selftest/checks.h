@@ -118,9 +118,12 @@ void check_shared_veiled(Device& device, CheckResult& result);
 /// As check_shared_lights(), for light that metal reflects.
 void check_shared_reflections(Device& device, CheckResult& result);
 
-// film_checks.cpp: the film against sums in double precision.
+// film_checks.cpp: the film, and the light of camera paths, against sums in double precision.
 
 /// A case is the value of a channel of a pixel.
 void check_film(Device& device, CheckResult& result);
+/// A case is a half of the light that the camera paths of a pixel bring, the rounds of further paths that the
+/// pixel gets, or its light after one of them.
+void check_camera_lights(Device& device, CheckResult& result);
 
 }  // namespace nearlight::core

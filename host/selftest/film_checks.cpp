@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "host/reference/camera_lights_oracle.h"
 #include "host/reference/film_oracle.h"
 #include "host/selftest/checks.h"
+#include "host/stages/camera_lights.h"
 #include "host/stages/film.h"
 
 namespace nearlight::core {
@@ -36,6 +39,58 @@ void check_film(Device& device, CheckResult& result) {
         for (std::size_t c = 0; c < expected.size(); ++c) {
             result.expect(std::abs(found[pixel * NEARLIGHT_LAYER_CHANNELS + c] - expected[c]) <= 2e-6);
         }
+    }
+}
+
+namespace {
+
+bool are_close(Vec3 a, Vec3 b, double tolerance) {
+    return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance &&
+           std::abs(a.z - b.z) <= tolerance;
+}
+
+}  // namespace
+
+void check_camera_lights(Device& device, CheckResult& result) {
+    const FilmLayout layout{.width = 53, .height = 37, .samples = 5};
+    const FilmSamples samples = random_film_samples(layout);
+    const CameraBand band{.tile_row_count = static_cast<uint>(layout.tile_rows()),
+                          .sample_count = layout.samples,
+                          .samples_per_pixel = layout.samples,
+                          .branch_count = layout.branches};
+    const std::size_t pixels = std::size_t{layout.width} * layout.height;
+    const uint half = layout.samples / 2;
+    const Buffer<CameraVertex> vertices(device, samples.vertices);
+    const std::vector<float> light(pixels * NEARLIGHT_FILM_CHANNELS, 1.0f);
+    Buffer<float> sums(device, light);
+    Buffer<CameraLight> lights(device, pixels);
+    Buffer<uint> rounds(device, pixels);
+    lights.fill_zero();
+    CameraLights stage(device);
+    stage.add(vertices, band, layout.width, layout.height, half, lights);
+    const std::vector<CameraLight> found = lights.download();
+    stage.choose(lights, sums, {layout.width, layout.height, layout.samples}, rounds);
+    const std::vector<uint> chosen = rounds.download();
+    for (uint pixel = 0; pixel < pixels; ++pixel) {
+        const uint x = pixel % layout.width;
+        const uint y = pixel / layout.width;
+        const CameraLight expected = expected_camera_light(samples, layout, half, x, y);
+        result.expect(are_close(found[pixel].first, expected.first, 2e-5));
+        result.expect(are_close(found[pixel].second, expected.second, 2e-5));
+        result.expect(chosen[pixel] == expected_rounds(found, light, layout.width, layout.samples, x, y));
+    }
+    std::vector<uint> all(pixels);
+    std::iota(all.begin(), all.end(), 0u);
+    const Buffer<uint> listed(device, all);
+    const Buffer<CameraLight> added(device, std::vector<CameraLight>(pixels, {{1, 1, 1}, {2, 2, 2}}));
+    stage.refine(listed, 0, pixels, added, 0.5f, lights, sums, rounds);
+    const std::vector<float> refined = sums.download();
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        // The light of 1 had all of the camera's light in it, which is now half of it and half of what was
+        // added.
+        const double before = double{found[pixel].first.x} + double{found[pixel].second.x};
+        result.expect(std::abs(refined[pixel * NEARLIGHT_FILM_CHANNELS + NEARLIGHT_SUM_DIRECT] -
+                               (1.0 + 0.5 * (3.0 - before))) <= 2e-5);
     }
 }
 

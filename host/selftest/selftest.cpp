@@ -42,6 +42,7 @@ std::vector<NamedCheck> all_checks() {
             {"local lights", check_local_lights},
             {"camera pass", check_camera_pass},
             {"first surfaces", check_first_surfaces},
+            {"camera lights", check_camera_lights},
             {"film", check_film}};
 }
 

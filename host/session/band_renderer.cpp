@@ -44,6 +44,11 @@ CameraBand with_light(CameraBand batch, const Picture& picture, const ReceiverPa
     return batch;
 }
 
+/// Whether pixels may get more camera paths than others.
+bool refines(const Picture& picture) {
+    return picture.settings.refine && picture.settings.samples_per_pixel >= kMinRefinedSamples;
+}
+
 std::size_t pixels_per_band(const Picture& picture) {
     return static_cast<std::size_t>(picture.plan.cover.width) * picture.plan.tile_rows_per_band *
            NEARLIGHT_TILE_SIZE;
@@ -97,6 +102,13 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
             stages.light_cuts.emplace(stages.device);
         }
         cut_tree_ = stages.light_cuts->make_tree(this->vpls().buffer(), this->vpls().count());
+    }
+    if (refines(picture)) {
+        if (!stages.refinement) {
+            stages.refinement.emplace(stages.device);
+        }
+        refinement_.emplace(stages.device, *stages.refinement, pixels_per_band(picture),
+                            picture.plan.max_packets(), picture.settings.samples_per_pixel);
     }
 }
 
@@ -197,12 +209,22 @@ void BandRenderer::trace_receivers(std::size_t packets) {
     }
 }
 
+CameraPassInput BandRenderer::camera_input(const CameraBand& batch) const {
+    return {scene_, camera_, picture_.plan.cover.width, close_range_, batch, picture_.seed};
+}
+
+CameraPassOutput BandRenderer::camera_output() {
+    return {buffers_.receivers, buffers_.vertices, &buffers_.seen};
+}
+
 /// Renders one batch: receivers, direct light, indirect light, film. Returns false if cancelled.
 bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
     const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
-    stages_.camera_pass.run({scene_, camera_, width, close_range_, batch, picture_.seed},
-                            {buffers_.receivers, buffers_.vertices, &buffers_.seen});
+    stages_.camera_pass.run(camera_input(batch), camera_output());
+    if (refinement_) {
+        refinement_->add(batch, buffers_.vertices);
+    }
     trace_receivers(packets);
     const bool finished = gather_vpls(batch, progress);
     if (finished) {
@@ -223,6 +245,9 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress&
     FinishedBand band;
     const std::size_t lights_before = picture_.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();
+    if (refinement_) {
+        refinement_->begin({cover.x, cover.y + first_row, cover.width, row_count});
+    }
     for (std::size_t i = 0; i < batches.size(); ++i) {
         const auto batch_progress = [&](std::uint64_t done, std::uint64_t total) {
             const double within = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
@@ -231,6 +256,10 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress&
         if (!add_batch(with_light(batches[i], picture_, paths_), row_count, batch_progress)) {
             return std::nullopt;
         }
+    }
+    if (refinement_) {
+        refinement_->finish(stages_.camera_pass, camera_input(with_light(batches.front(), picture_, paths_)),
+                            camera_output(), buffers_.sums);
     }
     const std::size_t pixel_count = static_cast<std::size_t>(cover.width) * row_count;
     stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);

@@ -7,6 +7,7 @@
 
 #include "host/samplers/sampler.h"
 #include "host/session/band_sharing.h"
+#include "host/session/camera_refinement.h"
 #include "host/session/local_gather.h"
 #include "host/session/plan.h"
 #include "host/stages/camera_pass.h"
@@ -51,6 +52,7 @@ struct BandStages {
     std::optional<LocalGather> local_gather{};
     std::optional<Roulette> roulette{};
     std::optional<LightCuts> light_cuts{};
+    std::optional<RefinementStages> refinement{};
 };
 
 /// What, besides the scene and the VPLs, all bands of a picture have in common. It consists of plain numbers,
@@ -97,6 +99,8 @@ class BandRenderer {
 
     void trace_receivers(std::size_t packets);
     void trace_sharing_receivers(std::size_t packets);
+    [[nodiscard]] CameraPassInput camera_input(const CameraBand& batch) const;
+    CameraPassOutput camera_output();
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
     bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
@@ -112,6 +116,7 @@ class BandRenderer {
     std::optional<CutTree> cut_tree_;  ///< over the VPLs, if bundles ask cuts
     ReceiverPathSettings paths_;
     BatchBuffers buffers_;
+    std::optional<CameraRefinement> refinement_;  ///< empty if no pixel may get more camera paths
 };
 
 }  // namespace nearlight::core

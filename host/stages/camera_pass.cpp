@@ -3,7 +3,6 @@
 
 #include "host/base/division.h"
 #include "host/stages/joint_programs.h"
-#include "kernels/shared/camera_pass.h"
 
 namespace nearlight::core {
 
@@ -26,7 +25,8 @@ std::size_t packet_count(const CameraBand& band, uint width) {
 CameraPass::CameraPass(Device& device)
     : program_(device, "camera_pass.cl", kViewProgram),
       camera_pass_(program_, "camera_pass"),
-      none_seen_(device, 0) {}
+      none_seen_(device, 0),
+      none_listed_(device, 0) {}
 
 void CameraPass::run(const CameraPassInput& input, const CameraPassOutput& output) {
     const CameraBand& band = input.band;
@@ -44,10 +44,11 @@ void CameraPass::run(const CameraPassInput& input, const CameraPassOutput& outpu
                    .light_rays = band.light_rays,
                    .min_weight = band.min_weight,
                    .bundle_rays = band.sky_rays * NEARLIGHT_SKY_RAYS},
-        .pad0 = 0,
-        .pad1 = 0};
+        .list = input.only != nullptr ? input.only->list : PixelList{},
+        .pad0 = 0};
     camera_pass_.launch_items(sample_packets * NEARLIGHT_PACKET_SIZE, input.scene, input.camera,
-                              input.close_range, params, output.receivers, output.vertices,
+                              input.close_range, input.only != nullptr ? input.only->numbers : none_listed_,
+                              params, output.receivers, output.vertices,
                               output.seen != nullptr ? *output.seen : none_seen_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
+#include "kernels/shared/camera_pass.h"
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/shared_light.h"
 
@@ -43,6 +44,20 @@ PacketOrder packet_order(const CameraBand& band, uint width);
 /// bundles.
 std::size_t packet_count(const CameraBand& band, uint width);
 
+/// Pixels to look at, by their numbers in a part of the picture, row by row.
+struct ListedPixels {
+    const Buffer<uint>& numbers;
+    PixelList list;
+};
+
+/// The band of a launch that looks at listed pixels: the places of a single row of tiles.
+constexpr CameraBand one_tile_row(CameraBand band) {
+    band.first_tile_column = band.first_tile_row = 0;
+    band.tile_row_count = 1;
+    band.bundle_columns = band.bundle_rows = band.bundle_samples = band.interleave = 1;
+    return band;
+}
+
 /// What the camera pass looks at. `camera` and `close_range` hold one element each.
 struct CameraPassInput {
     const DeviceScene& scene;
@@ -51,6 +66,7 @@ struct CameraPassInput {
     const Buffer<CloseRange>& close_range;
     CameraBand band;
     uint seed = 0;
+    const ListedPixels* only = nullptr;  ///< the pixels that take the places of the band; null: its own
 };
 
 /// What the camera pass writes: packet_count() packets and 64 vertices for each of them, in the order that
@@ -72,6 +88,7 @@ class CameraPass {
     Program program_;
     Kernel camera_pass_;
     Buffer<SeenSurface> none_seen_;
+    Buffer<uint> none_listed_;
 };
 
 }  // namespace nearlight::core

@@ -140,6 +140,10 @@ struct GatherSettings {
     bool compensate = true;
     /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections.
     std::uint32_t rays_per_pixel = 64;
+    /// Whether pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up to
+    /// eight times the camera paths of others, for the light that these paths bring on their own. Pixels with
+    /// fewer than four samples do not.
+    bool refine = true;
     bool indirect_only = false;  ///< the layer of direct light has emission only
     /// Bundles of receivers share the light that their rays find. What one path brings from a lamp that it
     /// met by chance stays with its receiver where it is more than this radiance (W/m²/sr): it makes a bright

@@ -14,7 +14,6 @@
 typedef struct CameraPath {
     PathRay ray;
     float3 emitted;
-    float3 traced;   // indirect light of a path that is traced to its end
     uint key;        // of the path's own random numbers
     uint pixel_key;  // of the sequences that all samples of the pixel share
     uint sample;     // of the pixel

@@ -18,6 +18,15 @@ typedef struct CameraLimits {
     uint bundle_rays;    // of a bundle, which look for the sky for the first surfaces too
 } CameraLimits;
 
+/// The pixels that a launch looks at instead of those at its places. Its places, row by row, take one pixel
+/// of a list after the other.
+typedef struct PixelList {
+    uint count;  // of pixels; 0: there is no list
+    uint first;  // place of the first one in the list
+    uint width;  // of the part of the picture whose pixels the list numbers row by row
+    uint x, y;   // of this part's first pixel
+} PixelList;
+
 /// The part of the picture that a launch covers, and how.
 typedef struct CameraPassParams {
     PacketOrder order;  // of the receivers
@@ -27,11 +36,25 @@ typedef struct CameraPassParams {
     uint sequence_length;  // samples of a pixel over all launches
     uint seed;
     CameraLimits limits;
-    uint pad0, pad1;
+    PixelList list;
+    uint pad0;
 } CameraPassParams;
 
+/// The light that the camera paths of a pixel bring on their own: sums of CameraVertex.emitted times the
+/// filter's weights over the first half of the pixel's samples, and over the second half.
+typedef struct CameraLight {
+    Vec3 first;
+    Vec3 second;
+} CameraLight;
+/// How often the camera paths of a pixel may double (camera_lights.cl).
+#define NEARLIGHT_MAX_ROUNDS 3u
+/// The variance of a sample's camera light ÷ squared light of its pixel at which the first samples are enough
+/// (bench/log/refine.md).
+#define NEARLIGHT_ENOUGH_VARIANCE 0.064f
+
 #ifdef __cplusplus
-NEARLIGHT_CHECK_SHARED(CameraPassParams, 80);
+NEARLIGHT_CHECK_SHARED(CameraPassParams, 96);
+NEARLIGHT_CHECK_SHARED(CameraLight, 24);
 }  // namespace nearlight::core
 #endif
 

@@ -105,9 +105,13 @@
     SIZE(CameraPassParams)                          \
     OFFSET(CameraPassParams, seed)                  \
     OFFSET(CameraPassParams, limits)                \
+    OFFSET(CameraPassParams, list)                  \
+    SIZE(CameraLight)                               \
+    OFFSET(CameraLight, second)                     \
     SIZE(CameraVertex)                              \
     OFFSET(CameraVertex, filter_weight)             \
-    OFFSET(CameraVertex, traced)                    \
+    OFFSET(CameraVertex, traced_direct)             \
+    OFFSET(CameraVertex, traced_indirect)           \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(Opening)                                   \

@@ -254,8 +254,11 @@ typedef struct CameraVertex {
     uint flags;
     Vec3 emitted;         // radiance of lights and environment seen on the way
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
-    Vec3 traced;          // indirect radiance of a receiver of little weight, which is absent
+    // Radiance of a receiver of little weight, which is absent.
+    Vec3 traced_direct;
     float pad0;
+    Vec3 traced_indirect;
+    float pad1;
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
 #define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel
@@ -305,7 +308,8 @@ NEARLIGHT_CHECK_SHARED(Parameter, 16);
 NEARLIGHT_CHECK_SHARED(Material, 272);
 static_assert(offsetof(Material, roughness) == NEARLIGHT_PARAMETER_ROUGHNESS * sizeof(Parameter) &&
                   offsetof(Material, metallic) == NEARLIGHT_PARAMETER_METALLIC * sizeof(Parameter) &&
-                  offsetof(Material, clearcoat_gloss) == NEARLIGHT_PARAMETER_CLEARCOAT_GLOSS * sizeof(Parameter),
+                  offsetof(Material, clearcoat_gloss) ==
+                      NEARLIGHT_PARAMETER_CLEARCOAT_GLOSS * sizeof(Parameter),
               "parameters are numbered in the order of the members");
 NEARLIGHT_CHECK_SHARED(Texture, 96);
 NEARLIGHT_CHECK_SHARED(Camera, 1136);
@@ -320,7 +324,7 @@ NEARLIGHT_CHECK_SHARED(ReceiverPacket, 2304);
 NEARLIGHT_CHECK_SHARED(IrradiancePacket, 768);
 NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
-NEARLIGHT_CHECK_SHARED(CameraVertex, 64);
+NEARLIGHT_CHECK_SHARED(CameraVertex, 80);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
 NEARLIGHT_CHECK_SHARED(SceneInfo, 44);
 }  // namespace nearlight::core

@@ -98,6 +98,8 @@ struct FieldsOf<GatherSettings> {
         Field{"compensate", &GatherSettings::compensate,
               "whether rays bring back what the clamp radius takes away and what surfaces reflect"},
         Field{"rays_per_pixel", &GatherSettings::rays_per_pixel, "the number of these rays"},
+        Field{"refine", &GatherSettings::refine,
+              "whether edges of lamps and windows, of their images and of highlights get more camera paths"},
         Field{"indirect_only", &GatherSettings::indirect_only, "leaves direct light out, but not emission"},
         Field{"shared_limit", &GatherSettings::shared_limit,
               "radiance of lamps met by chance that bundles share at most; None: a pilot chooses"},

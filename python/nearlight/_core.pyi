@@ -106,6 +106,7 @@ class _GatherSettings(TypedDict, total=False):
     direct_samples_per_pixel: int | None
     compensate: bool
     rays_per_pixel: int
+    refine: bool
     indirect_only: bool
     shared_limit: float | None
     roulette: float
@@ -119,6 +120,7 @@ class GatherSettings:
     direct_samples_per_pixel: int | None
     compensate: bool
     rays_per_pixel: int
+    refine: bool
     indirect_only: bool
     shared_limit: float | None
     roulette: float

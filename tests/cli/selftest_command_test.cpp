@@ -32,7 +32,7 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
                   "patch VPLs, VPL light, closest hit, any hit, gather packets, gather rays, roulette, "
                   "light cuts, BSDFs, direct light, paths of receivers, shared lights, shared sky, "
                   "shared veiled, shared reflections, light tracing, VPL contribution, reverse VPLs, "
-                  "metropolis chains, local lights, camera pass, first surfaces, film");
+                  "metropolis chains, local lights, camera pass, first surfaces, camera lights, film");
     }
 }
 

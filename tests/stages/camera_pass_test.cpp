@@ -309,9 +309,11 @@ TEST_F(CameraPassTest, LightOfReceiversOfLittleWeightIsTraced) {
             const GBuffer found = Shooting(device, scene, 8, 8)
                                       .shoot({.tile_row_count = 1, .max_depth = 3, .min_weight = min_weight});
             for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-                EXPECT_NEAR(found.vertices[i].emitted.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
+                EXPECT_NEAR(found.vertices[i].traced_direct.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
+                EXPECT_TRUE(is_zero(found.vertices[i].emitted));
                 EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced);
-                EXPECT_TRUE(is_zero(found.vertices[i].traced)) << "there is no second surface to reflect";
+                EXPECT_TRUE(is_zero(found.vertices[i].traced_indirect))
+                    << "there is no second surface to reflect";
             }
         }
     });

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// More camera paths for the pixels of a band where the light that these paths bring on their own varies most.
+#pragma once
+
+#include "host/stages/camera_lights.h"
+#include "host/stages/compaction.h"
+
+namespace nearlight::core {
+
+/// The stages that refine a band, besides the camera pass.
+struct RefinementStages {
+    explicit RefinementStages(Device& device) : camera_lights(device), compaction(device) {}
+
+    CameraLights camera_lights;
+    Compaction compaction;
+};
+
+/// With fewer samples a pixel, their variance is too uncertain to choose by.
+inline constexpr uint kMinRefinedSamples = 4;
+
+class CameraRefinement {
+  public:
+    /// For bands of up to `max_pixels` pixels and batches of up to `max_packets` packets. `sample_count` is
+    /// that of each pixel, at least kMinRefinedSamples. Keeps a reference to `stages`.
+    CameraRefinement(Device& device, RefinementStages& stages, std::size_t max_pixels,
+                     std::size_t max_packets, uint sample_count);
+
+    /// Starts a band of width × row_count pixels, whose first one is (x, y) of the picture.
+    void begin(const PixelWindow& pixels);
+    /// Adds what the camera pass of a batch wrote. Must come before anything else changes the vertices.
+    void add(const CameraBand& batch, const Buffer<CameraVertex>& vertices);
+    /// Launches the camera pass for the pixels that get more samples, and changes the band's sums of the
+    /// film. `input` is that of one of the band's batches, and `output` has room for `max_packets`.
+    void finish(CameraPass& camera_pass, const CameraPassInput& input, const CameraPassOutput& output,
+                Buffer<float>& sums);
+
+  private:
+    void add_round(CameraPass& camera_pass, CameraPassInput input, const CameraPassOutput& output,
+                   const PixelList& list, uint times);
+
+    RefinementStages* stages_;
+    std::size_t max_packets_;
+    uint sample_count_;
+    PixelWindow pixels_{};
+    Buffer<CameraLight> lights_;
+    Buffer<CameraLight> added_;  ///< what a round brings to the pixels of one list
+    Buffer<uint> rounds_;        ///< that each pixel still gets
+    Buffer<uint> listed_;        ///< numbers of the pixels that get the next round
+};
+
+}  // namespace nearlight::core
