@@ -94,16 +94,19 @@ TEST_F(CameraLightsTest, NeighboursDecideHowManyRoundsAPixelGets) {
 
 /// What a pixel has seen itself must not decide: else one that missed a lamp by chance would stay as it is.
 TEST_F(CameraLightsTest, APixelDoesNotDecideForItselfNorForOtherSquares) {
-    VariedPixels pixels = varied_pixels();
-    pixels.lights.assign(kPixelCount, {{2, 2, 2}, {3, 3, 3}});
-    constexpr uint kBright = 7 * kFiveSamples.width + 7;  // the last one of its square
-    pixels.lights[kBright].first = {500, 500, 500};
-    on_each_device([&](Device& device) {
-        const std::vector<uint> found = rounds(device, pixels);
-        for (uint i = 0; i < kPixelCount; ++i) {
-            const bool is_neighbour = i == kBright - 1 || i == kBright - kFiveSamples.width ||
-                                      i == kBright - kFiveSamples.width - 1;
-            EXPECT_EQ(found[i], is_neighbour ? NEARLIGHT_MAX_ROUNDS : 0u) << i;
+    on_each_device([](Device& device) {
+        for (const uint place : {7u, 8u}) {  // the last and the first pixels of squares
+            VariedPixels pixels = varied_pixels();
+            pixels.lights.assign(kPixelCount, {{2, 2, 2}, {3, 3, 3}});
+            pixels.lights[place * kFiveSamples.width + place].first = {500, 500, 500};
+            const std::vector<uint> found = rounds(device, pixels);
+            for (uint i = 0; i < kPixelCount; ++i) {
+                const uint x = i % kFiveSamples.width, y = i / kFiveSamples.width;
+                const uint inwards = place == 7 ? 6 : 9;
+                const bool is_neighbour = (x == place || x == inwards) && (y == place || y == inwards) &&
+                                          (x == inwards || y == inwards);
+                EXPECT_EQ(found[i], is_neighbour ? NEARLIGHT_MAX_ROUNDS : 0u) << x << ", " << y;
+            }
         }
     });
 }

@@ -29,11 +29,13 @@ TEST_F(CameraPixelListTest, ListedPixelsAreThoseOfThePicture) {
         constexpr uint kSamples = 3;
         Shooting shooting(device, scene, 37, 29);
         const GBuffer whole = shooting.shoot_all(kSamples, 2);
-        // The list numbers the pixels of the part from (8, 16) on, which is 20 pixels wide.
+        // Between two entries that do not count, the list numbers the pixels of the part from (8, 16) on,
+        // which is 20 pixels wide.
         std::vector<uint> listed{9999};
         for (uint i = 0; i < 71; ++i) {
             listed.push_back(i * 3 + 1);
         }
+        listed.push_back(0);
         const Buffer<uint> numbers(device, listed);
         const ListedPixels only{numbers, {.count = 71, .first = 1, .width = 20, .x = 8, .y = 16}};
         const CameraBand band = one_tile_row({.sample_count = kSamples,
