@@ -5,9 +5,8 @@
 
 #include "shared/types.h"
 
-static inline float3 load3(Vec3 v) {
-    return (float3)(v.x, v.y, v.z);
-}
+// A macro, because NVIDIA's compiler reads the parts of a struct that is passed by value byte by byte.
+#define load3(v) ((float3)((v).x, (v).y, (v).z))
 static inline Vec3 store3(float3 v) {
     Vec3 result;
     result.x = v.x;

@@ -6,6 +6,11 @@
 
 #include "lib/math.cl"
 
+/// A triangle of a tree. Its normal is edge1 × edge2, not normalised.
+typedef struct TreeTriangle {
+    float3 v0, edge1, edge2, normal;
+} TreeTriangle;
+
 static inline float away_from_zero(float x) {
     return fabs(x) < 1e-20f ? copysign(1e-20f, x) : x;
 }

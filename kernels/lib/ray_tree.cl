@@ -7,11 +7,6 @@
 #include "lib/bvh_traverse.cl"
 #include "lib/wide_ray.cl"
 
-/// A triangle of the tree. Its normal is edge1 × edge2, not normalised.
-typedef struct TreeTriangle {
-    float3 v0, edge1, edge2, normal;
-} TreeTriangle;
-
 #if NEARLIGHT_WIDE_RAYS
 
 typedef WideNode TreeNode;
@@ -42,12 +37,7 @@ typedef BvhTriangle TreeTriangles;
 #define tree_occluded occluded
 
 static inline TreeTriangle tree_triangle(const global TreeTriangles* triangles, uint slot) {
-    TreeTriangle triangle;
-    triangle.v0 = load3(triangles[slot].v0);
-    triangle.edge1 = load3(triangles[slot].edge1);
-    triangle.edge2 = load3(triangles[slot].edge2);
-    triangle.normal = load3(triangles[slot].normal);
-    return triangle;
+    return load_triangle(triangles + slot);
 }
 
 #endif
