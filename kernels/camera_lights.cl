@@ -12,6 +12,7 @@
 // square of NEARLIGHT_TILE_SIZE pixels, so that no bit depends on how the picture is divided into bands. One
 // work-item for each pixel; any work-group size.
 
+#include "lib/halves.cl"
 #include "lib/math.cl"
 #include "shared/camera_pass.h"
 #include "shared/film_layers.h"
@@ -26,17 +27,13 @@ kernel void camera_lights_add(const global CameraVertex* restrict vertices, uint
     if (index >= width * row_count) {
         return;
     }
-    const uint x = index % width;
-    const uint y = index / width;
-    const uint lane =
-        lane_of_pixel(y, order.interleave) * NEARLIGHT_TILE_SIZE + lane_of_pixel(x, order.interleave);
-    const uint column = tile_of_pixel(x, order.bundle_columns, order.interleave);
-    const uint row = tile_of_pixel(y, order.bundle_rows, order.interleave);
+    const PixelPlace place = place_of_pixel(order, index % width, index / width);
     float3 halves[2] = {load3(lights[index].first), load3(lights[index].second)};
     for (uint sample = 0; sample < order.sample_count; ++sample) {
         for (uint branch = 0; branch < order.branch_count; ++branch) {
-            const uint packet = packet_at(order, column, row, sample, branch);
-            const global CameraVertex* vertex = vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + lane;
+            const uint packet = packet_at(order, place.column, place.row, sample, branch);
+            const global CameraVertex* vertex =
+                vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
             halves[first_sample + sample >= half_end] += vertex->filter_weight * load3(vertex->emitted);
         }
     }
@@ -44,12 +41,11 @@ kernel void camera_lights_add(const global CameraVertex* restrict vertices, uint
     lights[index].second = store3(halves[1]);
 }
 
-/// The variance of the mean of a pixel's camera light, by how far apart the means of its halves lie.
+/// The variance of the mean of a pixel's camera light, over all channels.
 static inline float variance_of_mean(const global CameraLight* light, uint sample_count) {
-    const float in_first = (float)(sample_count / 2);
-    const float in_second = (float)sample_count - in_first;
-    const float3 difference = load3(light->first) / in_first - load3(light->second) / in_second;
-    return dot(difference, difference) * in_first * in_second / (float)(sample_count * sample_count);
+    return variance_by_halves(light->first.x, light->second.x, sample_count) +
+           variance_by_halves(light->first.y, light->second.y, sample_count) +
+           variance_by_halves(light->first.z, light->second.z, sample_count);
 }
 
 /// The square of all light of a pixel.

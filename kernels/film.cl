@@ -6,6 +6,7 @@
 // give the same bits as one. shared/film_layers.h is the table of layers: film_add has a line for each of
 // them, and film_resolve goes through the table.
 
+#include "lib/halves.cl"
 #include "lib/math.cl"
 #include "shared/film_layers.h"
 #include "shared/packet_order.h"
@@ -84,16 +85,12 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     if (index >= width * row_count) {
         return;
     }
-    const uint x = index % width;
-    const uint y = index / width;
-    const uint lane =
-        lane_of_pixel(y, order.interleave) * NEARLIGHT_TILE_SIZE + lane_of_pixel(x, order.interleave);
-    const uint column = tile_of_pixel(x, order.bundle_columns, order.interleave);
-    const uint row = tile_of_pixel(y, order.bundle_rows, order.interleave);
+    const PixelPlace place = place_of_pixel(order, index % width, index / width);
+    const uint lane = place.lane;
     global float* pixel = sums + (size_t)index * NEARLIGHT_FILM_CHANNELS;
     for (uint sample = 0; sample < order.sample_count; ++sample) {
         for (uint branch = 0; branch < order.branch_count; ++branch) {
-            const uint packet = packet_at(order, column, row, sample, branch);
+            const uint packet = packet_at(order, place.column, place.row, sample, branch);
             const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
             const IrradianceOfSample light = {
                 irradiance_of(direct + packet, lane),
@@ -146,21 +143,16 @@ static inline void resolve_light(const global float* sums, uint first, uint coun
     }
 }
 
-/// The variance of a mean whose samples are drawn one by one would be a·b/n² · (difference of the halves'
-/// means)², with a + b = n samples. Here the halves complement each other: they ask different strata of the
-/// VPLs and lie in each other's gaps in the pixel. kHalvesToWhole is what this leaves of that variance
-/// (bench/log/error.md).
+/// The halves of a pixel's samples are not drawn one by one but complement each other: they ask different
+/// strata of the VPLs and lie in each other's gaps in the pixel. kHalvesToWhole is what this leaves of the
+/// variance (bench/log/error.md).
 constant float kHalvesToWhole = 0.72f;
 static inline void resolve_spread(const global float* sums, uint first, uint count, float scale,
                                   global float* layer) {
-    const float samples = rint(1.0f / scale);
-    const float in_first = floor(0.5f * samples);
-    const float in_second = samples - in_first;
+    const uint samples = (uint)rint(1.0f / scale);
     for (uint c = 0; c < count; ++c) {
         const float light = sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c];
-        const float difference = sums[first + c] / in_first - (light - sums[first + c]) / in_second;
-        const float share = in_first * in_second * scale * scale;
-        layer[c] = in_first > 0.0f ? kHalvesToWhole * share * difference * difference : 0.0f;
+        layer[c] = kHalvesToWhole * variance_by_halves(sums[first + c], light - sums[first + c], samples);
     }
 }
 

@@ -64,8 +64,8 @@ void add_refine_option(CLI::App& command, GatherSettings& gather) {
         .add_option_function<std::string>(
             "--refine", [&gather](const std::string& text) { gather.refine = text == "on"; },
             "on: pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up "
-            "to "
-            "8 times the camera paths of others, for light that needs no VPLs; off: all have the same number")
+            "to 8 times the camera paths of others, for light that needs no VPLs; off: all have the same "
+            "number")
         ->check(CLI::IsMember({"on", "off"}))
         ->type_name("on|off")
         ->default_str("on");

@@ -11,13 +11,27 @@
 
 namespace nearlight::core {
 
+namespace {
+
+/// All samples of a layout in one batch.
+CameraBand whole_band(const FilmLayout& layout) {
+    return {.tile_row_count = static_cast<uint>(layout.tile_rows()),
+            .sample_count = layout.samples,
+            .samples_per_pixel = layout.samples,
+            .branch_count = layout.branches};
+}
+
+bool are_close(Vec3 a, Vec3 b, double tolerance) {
+    return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance &&
+           std::abs(a.z - b.z) <= tolerance;
+}
+
+}  // namespace
+
 void check_film(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 53, .height = 37};
     const FilmSamples samples = random_film_samples(layout);
-    const CameraBand band{.tile_row_count = static_cast<uint>(layout.tile_rows()),
-                          .sample_count = layout.samples,
-                          .samples_per_pixel = layout.samples,
-                          .branch_count = layout.branches};
+    const CameraBand band = whole_band(layout);
     const std::size_t pixels = std::size_t{layout.width} * layout.height;
     const Buffer<ReceiverPacket> receivers(device, samples.receivers);
     const Buffer<CameraVertex> vertices(device, samples.vertices);
@@ -42,22 +56,10 @@ void check_film(Device& device, CheckResult& result) {
     }
 }
 
-namespace {
-
-bool are_close(Vec3 a, Vec3 b, double tolerance) {
-    return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance &&
-           std::abs(a.z - b.z) <= tolerance;
-}
-
-}  // namespace
-
 void check_camera_lights(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 53, .height = 37, .samples = 5};
     const FilmSamples samples = random_film_samples(layout);
-    const CameraBand band{.tile_row_count = static_cast<uint>(layout.tile_rows()),
-                          .sample_count = layout.samples,
-                          .samples_per_pixel = layout.samples,
-                          .branch_count = layout.branches};
+    const CameraBand band = whole_band(layout);
     const std::size_t pixels = std::size_t{layout.width} * layout.height;
     const uint half = layout.samples / 2;
     const Buffer<CameraVertex> vertices(device, samples.vertices);

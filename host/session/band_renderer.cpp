@@ -236,6 +236,13 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
     return finished;
 }
 
+/// Gives pixels of the band of `batch` more camera paths where they need them. Returns false if cancelled.
+bool BandRenderer::refine(const CameraBand& batch, const WorkProgress& progress) {
+    return !refinement_ ||
+           refinement_->finish(stages_.camera_pass, camera_input(with_light(batch, picture_, paths_)),
+                               camera_output(), buffers_.sums, [&] { return progress(1.0); });
+}
+
 std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress& progress) {
     const auto batches = picture_.plan.batches(index);
     const PixelWindow& cover = picture_.plan.cover;
@@ -257,9 +264,8 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress&
             return std::nullopt;
         }
     }
-    if (refinement_) {
-        refinement_->finish(stages_.camera_pass, camera_input(with_light(batches.front(), picture_, paths_)),
-                            camera_output(), buffers_.sums);
+    if (!refine(batches.front(), progress)) {
+        return std::nullopt;
     }
     const std::size_t pixel_count = static_cast<std::size_t>(cover.width) * row_count;
     stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);

@@ -102,6 +102,7 @@ class BandRenderer {
     [[nodiscard]] CameraPassInput camera_input(const CameraBand& batch) const;
     CameraPassOutput camera_output();
     bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
+    bool refine(const CameraBand& batch, const WorkProgress& progress);
     bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
     [[nodiscard]] const VplBuffer& vpls() const;

@@ -18,7 +18,8 @@ uint first_half(uint sample_count, uint times) {
 
 CameraRefinement::CameraRefinement(Device& device, RefinementStages& stages, std::size_t max_pixels,
                                    std::size_t max_packets, uint sample_count)
-    : stages_(&stages),
+    : device_(&device),
+      stages_(&stages),
       max_packets_(max_packets),
       sample_count_(sample_count),
       lights_(device, max_pixels),
@@ -37,27 +38,29 @@ void CameraRefinement::add(const CameraBand& batch, const Buffer<CameraVertex>& 
                                lights_);
 }
 
-void CameraRefinement::finish(CameraPass& camera_pass, const CameraPassInput& input,
-                              const CameraPassOutput& output, Buffer<float>& sums) {
+bool CameraRefinement::finish(CameraPass& camera_pass, const CameraPassInput& input,
+                              const CameraPassOutput& output, Buffer<float>& sums,
+                              const std::function<bool()>& goes_on) {
     const CameraLightBand band{pixels_.width, pixels_.height, sample_count_};
     stages_->camera_lights.choose(lights_, sums, band, rounds_);
     const std::size_t pixel_count = std::size_t{pixels_.width} * pixels_.height;
     for (uint times = 1;; times *= 2) {
         const std::size_t count = stages_->compaction.list_set(rounds_, pixel_count, listed_);
         if (count == 0) {
-            return;
+            return true;
         }
         const std::size_t tile_packets = std::size_t{sample_count_} * times * input.band.branch_count;
         const std::size_t max_tiles = std::max<std::size_t>(max_packets_ / tile_packets, 1);
         for (std::size_t first = 0; first < count; first += max_tiles * NEARLIGHT_PACKET_SIZE) {
             const std::size_t some = std::min(max_tiles * NEARLIGHT_PACKET_SIZE, count - first);
-            add_round(camera_pass, input, output,
-                      {.count = static_cast<uint>(some),
-                       .first = static_cast<uint>(first),
-                       .width = pixels_.width,
-                       .x = pixels_.x,
-                       .y = pixels_.y},
-                      times);
+            const PixelList list{.count = static_cast<uint>(some),
+                                 .first = static_cast<uint>(first),
+                                 .width = pixels_.width,
+                                 .x = pixels_.x,
+                                 .y = pixels_.y};
+            if (!add_round(camera_pass, input, output, list, times, goes_on)) {
+                return false;
+            }
             stages_->camera_lights.refine(listed_, first, some, added_, 0.5f / static_cast<float>(times),
                                           lights_, sums, rounds_);
         }
@@ -66,9 +69,10 @@ void CameraRefinement::finish(CameraPass& camera_pass, const CameraPassInput& in
 
 /// Adds up in `added_` one round of the listed pixels, which have `times` times the samples of all pixels and
 /// get as many more. These pixels stand in one row of tiles, and their samples are launched in as many parts
-/// as fit.
-void CameraRefinement::add_round(CameraPass& camera_pass, CameraPassInput input,
-                                 const CameraPassOutput& output, const PixelList& list, uint times) {
+/// as fit. Returns false if cancelled.
+bool CameraRefinement::add_round(CameraPass& camera_pass, CameraPassInput input,
+                                 const CameraPassOutput& output, const PixelList& list, uint times,
+                                 const std::function<bool()>& goes_on) {
     const ListedPixels pixels{listed_, list};
     const uint tiles = divide_rounding_up(list.count, NEARLIGHT_PACKET_SIZE);
     const std::size_t sample_packets = std::size_t{tiles} * input.band.branch_count;
@@ -85,7 +89,12 @@ void CameraRefinement::add_round(CameraPass& camera_pass, CameraPassInput input,
         camera_pass.run(input, output);
         stages_->camera_lights.add(output.vertices, input.band, input.width, NEARLIGHT_TILE_SIZE,
                                    before + first_half(sample_count_, times), added_);
+        device_->finish();
+        if (!goes_on()) {
+            return false;
+        }
     }
+    return true;
 }
 
 }  // namespace nearlight::core

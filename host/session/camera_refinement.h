@@ -2,6 +2,8 @@
 // More camera paths for the pixels of a band where the light that these paths bring on their own varies most.
 #pragma once
 
+#include <functional>
+
 #include "host/stages/camera_lights.h"
 #include "host/stages/compaction.h"
 
@@ -30,14 +32,16 @@ class CameraRefinement {
     /// Adds what the camera pass of a batch wrote. Must come before anything else changes the vertices.
     void add(const CameraBand& batch, const Buffer<CameraVertex>& vertices);
     /// Launches the camera pass for the pixels that get more samples, and changes the band's sums of the
-    /// film. `input` is that of one of the band's batches, and `output` has room for `max_packets`.
-    void finish(CameraPass& camera_pass, const CameraPassInput& input, const CameraPassOutput& output,
-                Buffer<float>& sums);
+    /// film. `input` is that of one of the band's batches, and `output` has room for `max_packets`. Asks
+    /// `goes_on` after every launch of the camera pass; returns false if that said no.
+    bool finish(CameraPass& camera_pass, const CameraPassInput& input, const CameraPassOutput& output,
+                Buffer<float>& sums, const std::function<bool()>& goes_on);
 
   private:
-    void add_round(CameraPass& camera_pass, CameraPassInput input, const CameraPassOutput& output,
-                   const PixelList& list, uint times);
+    bool add_round(CameraPass& camera_pass, CameraPassInput input, const CameraPassOutput& output,
+                   const PixelList& list, uint times, const std::function<bool()>& goes_on);
 
+    Device* device_;
     RefinementStages* stages_;
     std::size_t max_packets_;
     uint sample_count_;

@@ -45,6 +45,20 @@ NEARLIGHT_SHARED_FUNCTION uint lane_of_pixel(uint pixel, uint interleave) {
     return pixel / interleave % NEARLIGHT_TILE_SIZE;
 }
 
+/// Where a pixel stands in a launch: its tile, and its lane in the packets of that tile.
+typedef struct PixelPlace {
+    uint column, row;
+    uint lane;
+} PixelPlace;
+NEARLIGHT_SHARED_FUNCTION PixelPlace place_of_pixel(PacketOrder order, uint x, uint y) {
+    PixelPlace place;
+    place.column = tile_of_pixel(x, order.bundle_columns, order.interleave);
+    place.row = tile_of_pixel(y, order.bundle_rows, order.interleave);
+    place.lane =
+        lane_of_pixel(y, order.interleave) * NEARLIGHT_TILE_SIZE + lane_of_pixel(x, order.interleave);
+    return place;
+}
+
 /// The place of a packet, for the tile at `column` and `row` of the batch.
 NEARLIGHT_SHARED_FUNCTION uint packet_at(PacketOrder order, uint column, uint row, uint sample, uint branch) {
     const uint across = order.tile_columns / order.bundle_columns;

@@ -4,9 +4,13 @@
 #include "host/session/camera_refinement.h"
 
 #include <cmath>
+#include <utility>
 
+#include "host/scene/camera.h"
+#include "host/stages/close_range.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/scene_on_device.h"
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
@@ -115,6 +119,46 @@ TEST_F(CameraRefinementTest, DirectLightAloneChanges) {
         }
         EXPECT_GT(changed, 40u);
         EXPECT_LT(changed, off.values.size() / NEARLIGHT_LAYER_CHANNELS / 2) << "most pixels are left alone";
+    });
+}
+
+/// Rounds of many samples take longer than anyone waits after Ctrl-C.
+TEST_F(CameraRefinementTest, RoundsAskWhetherToGoOn) {
+    on_each_device([](Device& device) {
+        const Scene scene = lamp_over_gloss();
+        const test::SceneOnDevice on_device(device, scene);
+        const Camera camera = make_camera(scene.camera, scene.camera.width, scene.camera.height);
+        const CloseRange region = make_close_range(camera, 1.0f);
+        const Buffer<Camera> cameras(device, std::span(&camera, 1));
+        const Buffer<CloseRange> regions(device, std::span(&region, 1));
+        const CameraBand band{.tile_row_count = tiles_across(camera.height),
+                              .sample_count = 8,
+                              .samples_per_pixel = 8,
+                              .branch_count = 2};
+        const std::size_t packets = packet_count(band, camera.width);
+        const std::size_t pixels = std::size_t{camera.width} * camera.height;
+        Buffer<ReceiverPacket> receivers(device, packets);
+        Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
+        Buffer<float> sums(device, std::vector<float>(pixels * NEARLIGHT_FILM_CHANNELS, 1.0f));
+        const CameraPassInput input{on_device.buffers, cameras, camera.width, regions, band, 1};
+        CameraPass camera_pass(device);
+        RefinementStages stages(device);
+        CameraRefinement refinement(device, stages, pixels, packets, band.sample_count);
+        const auto finishes_after = [&](int max_launches) {
+            int launches = 0;
+            refinement.begin({0, 0, camera.width, camera.height});
+            camera_pass.run(input, {receivers, vertices});
+            refinement.add(band, vertices);
+            const bool finished = refinement.finish(camera_pass, input, {receivers, vertices}, sums,
+                                                    [&] { return ++launches < max_launches; });
+            return std::pair(finished, launches);
+        };
+        const auto [finished, all] = finishes_after(1000);
+        EXPECT_TRUE(finished);
+        ASSERT_GT(all, 1);
+        for (int i = 1; i <= all; ++i) {
+            EXPECT_EQ(finishes_after(i), std::pair(false, i)) << "of " << all;
+        }
     });
 }
 
