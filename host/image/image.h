@@ -18,6 +18,9 @@ struct Image {
     std::vector<float> values;  ///< width·height·channels.size()
 
     [[nodiscard]] std::size_t channel_count() const { return channels.size(); }
+    [[nodiscard]] std::size_t pixel_count() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
     [[nodiscard]] float& at(int x, int y, std::size_t channel) {
         return values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                        static_cast<std::size_t>(x)) *

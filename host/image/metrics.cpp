@@ -30,7 +30,7 @@ std::vector<Vec3> color_pixels(const Image& image, const std::string& layer, con
         }
         indices[c] = static_cast<std::size_t>(index);
     }
-    std::vector<Vec3> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::vector<Vec3> pixels(image.pixel_count());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const float* const values = image.values.data() + i * image.channel_count();
         pixels[i] = {values[indices[0]], values[indices[1]], values[indices[2]]};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <system_error>
 #include <variant>
 #include <vector>
@@ -39,26 +40,42 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::I
     return input;
 }
 
+/// Reads the rows [first, end) as numbers of `type`; images of tiles can be read as a whole only.
+bool read_rows(OIIO::ImageInput& input, int first, int end, OIIO::TypeDesc type, void* numbers) {
+    const OIIO::ImageSpec& spec = input.spec();
+    return spec.tile_width > 0 ? input.read_image(0, 0, 0, spec.nchannels, type, numbers)
+                               : input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0,
+                                                      spec.nchannels, type, numbers);
+}
+
 /// Reads all pixels. Images of scanlines are read in parts, so that a short file whose header promises many
-/// pixels takes memory for the first part only.
+/// pixels takes memory for the first part only. OpenImageIO would turn codes of 8 bits into floats too, but
+/// takes longer for that than for all else.
 bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
     constexpr std::size_t kPart = std::size_t{4} << 20;  // numbers
     const OIIO::ImageSpec& spec = input.spec();
     const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
-    const bool has_tiles = spec.tile_width > 0;
-    const int step =
-        has_tiles ? spec.height : static_cast<int>(std::clamp<std::size_t>(kPart / row, 1, 1u << 16));
+    const int step = spec.tile_width > 0
+                         ? spec.height
+                         : static_cast<int>(std::clamp<std::size_t>(kPart / row, 1, 1u << 16));
+    const bool has_codes = spec.format == OIIO::TypeDesc::UINT8;
+    std::vector<std::uint8_t> codes;
     values.reserve(row * static_cast<std::size_t>(spec.height));
     for (int first = 0; first < spec.height; first += step) {
         const int end = std::min(first + step, spec.height);
+        const std::size_t count = row * static_cast<std::size_t>(end - first);
         const std::size_t before = values.size();
-        values.resize(row * static_cast<std::size_t>(end));
+        values.resize(before + count);
         float* const part = values.data() + before;
-        if (has_tiles ? !input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, part)
-                      : !input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0, spec.nchannels,
-                                              OIIO::TypeDesc::FLOAT, part)) {
+        if (has_codes) {
+            codes.resize(count);
+        }
+        if (has_codes ? !read_rows(input, first, end, OIIO::TypeDesc::UINT8, codes.data())
+                      : !read_rows(input, first, end, OIIO::TypeDesc::FLOAT, part)) {
             return false;
         }
+        std::transform(codes.begin(), codes.end(), part,
+                       [](std::uint8_t code) { return static_cast<float>(code) * (1.0f / 255.0f); });
     }
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "host/base/math.h"
 #include "host/scene/scene.h"
@@ -33,6 +34,18 @@ Material wrapper_material(uint model, Parameter parameter, uint child) {
     material.child[0] = child;
     material.child[1] = child;
     return material;
+}
+
+/// A plastic with the same coat, whose integrals over microfacets need not be found again; null if there is
+/// none.
+const Material* find_coat(std::span<const Material> materials, const Material& plastic) {
+    const auto facets = [](const Material& m) { return m.flags & NEARLIGHT_MATERIAL_BECKMANN; };
+    const auto twin = std::find_if(materials.begin(), materials.end(), [&](const Material& other) {
+        return other.model == NEARLIGHT_BSDF_PLASTIC && other.roughness.texture < 0 &&
+               other.roughness.value.x == plastic.roughness.value.x && other.eta.x == plastic.eta.x &&
+               facets(other) == facets(plastic);
+    });
+    return twin == materials.end() ? nullptr : &*twin;
 }
 
 }  // namespace
@@ -111,16 +124,21 @@ Material thin_dielectric_material(double eta) {
 
 Material plastic_material(Scene& scene, const Coat& coat) {
     Material material = plain_material(NEARLIGHT_BSDF_PLASTIC);
-    const bool is_smooth = coat.alpha < static_cast<double>(NEARLIGHT_MIN_ALPHA);
     material.roughness = parameter_of(static_cast<float>(coat.alpha));
     material.eta = grey(coat.eta);
     material.flags = (coat.beckmann ? NEARLIGHT_MATERIAL_BECKMANN : 0u) |
                      (coat.nonlinear ? NEARLIGHT_MATERIAL_NONLINEAR : 0u);
-    material.curve = add_curve(scene, is_smooth ? smooth_coat_curve(coat.eta)
-                                                : rough_coat_curve(coat.eta, coat.alpha, coat.beckmann));
-    material.internal_reflectance =
-        static_cast<float>(is_smooth ? smooth_internal_reflectance(coat.eta)
-                                     : rough_internal_reflectance(coat.eta, coat.alpha, coat.beckmann));
+    if (const Material* twin = find_coat(scene.materials, material)) {
+        material.curve = twin->curve;
+        material.internal_reflectance = twin->internal_reflectance;
+    } else if (coat.alpha < static_cast<double>(NEARLIGHT_MIN_ALPHA)) {
+        material.curve = add_curve(scene, smooth_coat_curve(coat.eta));
+        material.internal_reflectance = static_cast<float>(smooth_internal_reflectance(coat.eta));
+    } else {
+        material.curve = add_curve(scene, rough_coat_curve(coat.eta, coat.alpha, coat.beckmann));
+        material.internal_reflectance =
+            static_cast<float>(rough_internal_reflectance(coat.eta, coat.alpha, coat.beckmann));
+    }
     return material;
 }
 

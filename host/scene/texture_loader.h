@@ -10,29 +10,10 @@
 #include "host/image/image.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
+#include "host/scene/texel_reader.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
-
-/// What the numbers of an image file stand for.
-struct TexelRule {
-    /// 0: sRGB-encoded, except in files of floats; otherwise linear = number to the power of gamma.
-    float gamma = 0.0f;
-    bool is_number = false;      ///< one number, the luminance of the colour
-    bool is_signed = false;      ///< numbers below 0 mean something
-    int channel = -1;            ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
-    bool prefers_alpha = false;  ///< alpha alone, of images in which it is not 1 everywhere
-    bool is_inverse = false;     ///< of a channel: 1 − factor·number instead of the number
-    float factor = 1.0f;
-    /// What x and y of a map of normals are multiplied by, which makes it steeper or turns it over.
-    float steepness_x = 1.0f;
-    float steepness_y = 1.0f;
-    /// Alpha multiplies linear colours; above an `alpha_cutoff` that is not 0, alpha counts as 1, below as 0.
-    bool times_alpha = false;
-    float alpha_cutoff = 0.0f;
-
-    auto operator<=>(const TexelRule&) const = default;
-};
 
 /// Reads each file once for each rule, however many materials use it. Images of 8 bits a channel stay what
 /// they are, others become half floats. Numbers that are not finite count as 0, and negative colours too;

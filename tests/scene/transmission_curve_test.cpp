@@ -33,10 +33,12 @@ TEST(TransmissionCurve, DiffusePartOfPlasticsIsMitsubas) {
         {{1.2 / 1.5, 0.3, true, false}, {0, 0, 0, 0.009984, 0.470103, 0.787176}},
     };
     const std::size_t rows[] = {1, 5, 10, 20, 40, 62};
+    // Materials that stand in the scene already may lend their coats, but only to those that have the same.
+    Scene scene;
     for (const PlasticCase& c : cases) {
         SCOPED_TRACE(c.coat.alpha);
-        Scene scene;
         const Material material = plastic_material(scene, c.coat);
+        scene.materials.push_back(material);
         const float* curve = curve_of(scene, material);
         const double inside = static_cast<double>(material.internal_reflectance);
         const double color = 0.5 / (1 - inside * (c.coat.nonlinear ? 0.5 : 1.0)) / (c.coat.eta * c.coat.eta);
