@@ -53,15 +53,16 @@ std::size_t pack_halves(const TexelReader& reader, std::size_t count, bool is_si
 
 }  // namespace
 
-int TextureLoader::load(const std::filesystem::path& image, const TexelRule& rule,
-                        const std::filesystem::path& file, int line) {
-    const auto [entry, is_new] = loaded_.try_emplace({image.lexically_normal(), rule}, -1);
+int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file,
+                        int line) {
+    const auto [entry, is_new] =
+        loaded_.try_emplace({image.file.lexically_normal(), image.start(), rule}, -1);
     if (!is_new) {
         return entry->second;
     }
     try {
-        entry->second = add_texels(read_image(image), image.filename().string(), rule, holds_floats(image),
-                                   {file, line, {}});
+        entry->second = add_texels(reader_.read(image), image.file.filename().string(), rule,
+                                   holds_floats(image.file), {file, line, {}});
     } catch (const Error& error) {
         throw_unless_file(error);
         notes_.approximation(

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
-#include "host/image/image.h"
+#include "host/scene/image_reader.h"
 #include "host/scene/note_sink.h"
 #include "host/scene/scene.h"
 #include "host/scene/texel_reader.h"
@@ -22,9 +24,11 @@ class TextureLoader {
   public:
     TextureLoader(Scene& scene, NoteSink& notes) : scene_(scene), notes_(notes) {}
 
+    /// Images that will probably be loaded, in about this order (ImageReader::expect).
+    void expect(std::vector<ImageSource> images) { reader_.expect(std::move(images)); }
+
     /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read.
-    int load(const std::filesystem::path& image, const TexelRule& rule, const std::filesystem::path& file,
-             int line);
+    int load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file, int line);
 
     /// Adds an image that has no file of its own, and returns its index.
     int add(const Image& image, const std::string& name, const TexelRule& rule,
@@ -34,9 +38,12 @@ class TextureLoader {
     int add_texels(const Image& image, const std::string& name, const TexelRule& rule, bool holds_floats,
                    const Note& place);
 
+    using Key = std::tuple<std::filesystem::path, const std::byte*, TexelRule>;
+
     Scene& scene_;
     NoteSink& notes_;
-    std::map<std::pair<std::filesystem::path, TexelRule>, int> loaded_;
+    ImageReader reader_;
+    std::map<Key, int> loaded_;
 };
 
 /// Throws the error on unless it is that of a broken file, which a note reports. Any other cause (a missing

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "host/image/image_io.h"
 #include "host/scene/material_model.h"
 #include "host/scene/texture.h"
 #include "nearlight/error.h"
@@ -36,13 +35,14 @@ std::string name_of(const tinygltf::Image& image) {
     return !image.uri.empty() ? image.uri : (image.name.empty() ? "image" : image.name) + kind;
 }
 
-Image read_pixels(const GltfFile& file, const tinygltf::Image& image) {
+/// Where the image is read from. Calls fail() if it is in a buffer view that does not exist.
+ImageSource source_of(const GltfFile& file, const tinygltf::Image& image) {
     if (!image.uri.empty()) {
-        return read_image(file.path.parent_path() / decoded_uri(image.uri));
+        return {.file = file.path.parent_path() / decoded_uri(image.uri)};
     }
-    return read_image(
-        image.bufferView >= 0 ? bytes_of(file, image.bufferView) : std::as_bytes(std::span(image.image)),
-        name_of(image));
+    return {.file = name_of(image),
+            .bytes = image.bufferView >= 0 ? bytes_of(file, image.bufferView)
+                                           : std::as_bytes(std::span(image.image))};
 }
 
 /// The two numbers `key` of KHR_texture_transform, or `fallback` twice.
@@ -104,12 +104,27 @@ int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info) {
     return set;
 }
 
-int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
-    if (!image.uri.empty()) {
-        return loader_.load(file_.path.parent_path() / decoded_uri(image.uri), rule, file_.path, 0);
+/// The images that textures show, in the order of the textures. What is wrong with one is told when a
+/// material asks for it.
+std::vector<ImageSource> TextureMaker::shown_images() const {
+    std::vector<ImageSource> sources;
+    for (const tinygltf::Texture& texture : file_.model.textures) {
+        const auto index = static_cast<std::size_t>(readable_image_of(texture));
+        if (index >= file_.model.images.size()) {
+            continue;
+        }
+        try {
+            sources.push_back(source_of(file_, file_.model.images[index]));
+        } catch (const Error& error) {
+            throw_unless_file(error);
+        }
     }
+    return sources;
+}
+
+int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
     try {
-        return loader_.add(read_pixels(file_, image), name_of(image), rule, file_.path, 0);
+        return loader_.load(source_of(file_, image), rule, file_.path, 0);
     } catch (const Error& error) {
         throw_unless_file(error);
         notes_.approximation(

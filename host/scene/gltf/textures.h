@@ -5,8 +5,8 @@
 #include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
-#include "host/image/image.h"
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/texture_loader.h"
 
@@ -35,7 +35,9 @@ tinygltf::TextureInfo plain_info(const Info& info) {
 class TextureMaker {
   public:
     TextureMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
-        : file_(file), scene_(scene), notes_(notes), loader_(scene, notes) {}
+        : file_(file), scene_(scene), notes_(notes), loader_(scene, notes) {
+        loader_.expect(shown_images());
+    }
 
     /// A parameter of the texture's numbers times `value`; `value` alone if there is no texture or the value
     /// is 0, and half of it, with a note, if the texture cannot be read. `flags` and `cutoff` are those of
@@ -53,6 +55,7 @@ class TextureMaker {
     [[nodiscard]] bool share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const;
 
   private:
+    [[nodiscard]] std::vector<ImageSource> shown_images() const;
     [[nodiscard]] int image_of(const tinygltf::Texture& texture);
     int load_image(const tinygltf::Image& image, const TexelRule& rule);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/mitsuba_loader.h"
 
-#include "host/scene/named_choice.h"
 #include "host/scene/default_view.h"
 #include "host/scene/mitsuba/emitter_maker.h"
 #include "host/scene/mitsuba/integrator_maker.h"
 #include "host/scene/mitsuba/sensor_maker.h"
 #include "host/scene/mitsuba/shape_maker.h"
 #include "host/scene/mitsuba/xml_reader.h"
+#include "host/scene/named_choice.h"
 
 namespace nearlight::core {
 namespace mitsuba {
@@ -41,7 +41,9 @@ void translate(const Object& root, const std::string& camera, Scene& scene, Note
     for (const Object* medium : root.nested("medium")) {
         note(notes, medium->where, kMediaAreLeftOut);
     }
-    shapes.add_all(root.nested("shape"));
+    const std::vector<const Object*> own_shapes = root.nested("shape");
+    textures.expect(own_shapes);
+    shapes.add_all(own_shapes);
     for (const Object* emitter : root.nested("emitter")) {
         add_emitter(*emitter, scene, textures, notes);
     }

@@ -2,7 +2,10 @@
 #include "host/scene/mitsuba/texture_maker.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "host/base/half.h"
 #include "host/scene/material_model.h"
@@ -100,6 +103,32 @@ int nesting(const Scene& scene, const Parameter& parameter) {
                : 1;
 }
 
+bool is_bitmap(const Object& texture) {
+    return texture.type == "bitmap" || texture.type == "ldrtexture" || texture.type == "exrtexture";
+}
+
+/// The files of the bitmaps that lie within these objects, in their order.
+std::vector<ImageSource> bitmaps_within(const std::vector<const Object*>& objects) {
+    std::vector<ImageSource> files;
+    std::set<const Object*> seen;
+    std::vector<const Object*> coming(objects.rbegin(), objects.rend());
+    while (!coming.empty()) {
+        const Object* const object = coming.back();
+        coming.pop_back();
+        if (object == nullptr || !seen.insert(object).second) {
+            continue;
+        }
+        const Property* const file = object->find("filename");
+        if (is_bitmap(*object) && file != nullptr && std::holds_alternative<std::string>(file->value)) {
+            files.push_back({.file = std::get<std::string>(file->value)});
+        }
+        for (auto child = object->children.rbegin(); child != object->children.rend(); ++child) {
+            coming.push_back(child->object);
+        }
+    }
+    return files;
+}
+
 constexpr const char* kKnownTextures = "bitmap, checkerboard, mesh_attribute, scale";
 
 }  // namespace
@@ -185,6 +214,10 @@ int TextureMaker::texture_index(const Object& texture) {
     return made.texture;
 }
 
+void TextureMaker::expect(const std::vector<const Object*>& shapes) {
+    loader_.expect(bitmaps_within(shapes));
+}
+
 Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
     const auto [entry, is_new] = made_.try_emplace({&texture, purpose}, parameter_of(kMissing));
     if (is_new) {  // a texture that contains itself finds grey
@@ -196,7 +229,7 @@ Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
 
 Parameter TextureMaker::make_new(const Object& texture, Purpose purpose) {
     const std::string& type = texture.type;
-    if (type == "bitmap" || type == "ldrtexture" || type == "exrtexture") {
+    if (is_bitmap(texture)) {
         return make_bitmap(texture, purpose);
     }
     if (type == "checkerboard") {
@@ -224,7 +257,7 @@ Parameter TextureMaker::make_bitmap(const Object& texture, Purpose purpose) {
     rule.is_number = purpose == Purpose::number || purpose == Purpose::height;
     rule.is_signed = purpose == Purpose::height || purpose == Purpose::normals;
     const std::filesystem::path file = texture.required_string("filename");
-    made.image = loader_.load(file, rule, *texture.where.file, texture.where.line);
+    made.image = loader_.load({.file = file}, rule, *texture.where.file, texture.where.line);
     if (made.image < 0) {
         return parameter_of(purpose == Purpose::normals ? kFlat : kMissing);
     }

@@ -22,6 +22,9 @@ class TextureMaker {
         float max = 1.0f;
     };
 
+    /// The bitmaps of these shapes' materials and emitters will probably be asked for, in this order.
+    void expect(const std::vector<const Object*>& shapes);
+
     /// The colour or nested texture called `name`; `fallback` if there is neither. A constant is limited to
     /// [0, 1], with a note.
     Parameter reflectance(const Object& owner, const std::string& name, Vec3 fallback);

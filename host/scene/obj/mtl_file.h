@@ -27,6 +27,10 @@ struct MaterialLibrary {
     /// Ka meanings of their own; 0 elsewhere.
     float blenders_exponent = 0;
 
+    /// The entry of that name, which there must be.
+    [[nodiscard]] const tinyobj::material_t& entry(const std::string& name) const {
+        return materials[static_cast<std::size_t>(names.at(name))];
+    }
     [[nodiscard]] bool is_blenders() const { return blenders_exponent > 0; }
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/obj/obj_materials.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
@@ -46,6 +49,9 @@ class ObjMaterials {
     /// With colours of vertices, these multiply Kd.
     ObjMaterials(Scene& scene, NoteSink& notes, bool has_colors)
         : scene_(scene), notes_(notes), textures_(scene, notes), has_colors_(has_colors) {}
+
+    /// Images that textures of materials will probably show.
+    void expect(std::vector<ImageSource> images) { textures_.expect(std::move(images)); }
 
     // The index of the material.
     uint add(const MaterialSource& source) {
@@ -308,8 +314,8 @@ class ObjMaterials {
         const int found =
             find_in_block(source.library.text, source.begin, "newmtl", texture.keyword, texture.name);
         const int line = found > 0 ? found : source.begin.number;
-        const int image =
-            textures_.load(resolve_path(source.library.file, texture.name), rule, source.library.file, line);
+        const int image = textures_.load({.file = resolve_path(source.library.file, texture.name)}, rule,
+                                         source.library.file, line);
         if (image < 0) {
             return -1;
         }
@@ -341,29 +347,56 @@ TextLine line_of(const std::unordered_map<std::string, TextLine>& lines, const s
     return found == lines.end() ? TextLine{} : found->second;
 }
 
+/// The first library with an entry of that name, or null.
+const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& libraries, const std::string& name) {
+    const auto found = std::find_if(libraries.begin(), libraries.end(), [&](const MaterialLibrary& library) {
+        return library.names.contains(name);
+    });
+    return found == libraries.end() ? nullptr : &*found;
+}
+
+/// The images of the textures that most entries use, in the order of the materials.
+std::vector<ImageSource> images_of(const std::vector<std::string>& names,
+                                   const std::vector<const MaterialLibrary*>& owners) {
+    std::vector<ImageSource> images;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (owners[i] == nullptr) {
+            continue;
+        }
+        const tinyobj::material_t& entry = owners[i]->entry(names[i]);
+        for (const std::string* texture :
+             {&entry.diffuse_texname, &entry.bump_texname, &entry.normal_texname, &entry.alpha_texname}) {
+            if (!texture->empty()) {
+                images.push_back({.file = resolve_path(owners[i]->file, *texture)});
+            }
+        }
+    }
+    return images;
+}
+
 }  // namespace
 
 std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
     const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
+    std::vector<const MaterialLibrary*> owners;  // of each material's entry; null if nothing defines it
+    std::transform(obj.materials.begin(), obj.materials.end(), std::back_inserter(owners),
+                   [&](const std::string& name) { return find_library(libraries, name); });
     ObjMaterials materials(scene, notes, !obj.mesh.colors.empty());
+    materials.expect(images_of(obj.materials, owners));
     const auto uses = lines_by_value(obj.text, "usemtl");
     std::vector<uint> indices;
-    for (const std::string& name : obj.materials) {
-        const MaterialLibrary* found = nullptr;
-        for (const MaterialLibrary& library : libraries) {
-            found = found == nullptr && library.names.contains(name) ? &library : found;
-        }
-        if (found == nullptr && !name.empty()) {
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        const std::string& name = obj.materials[i];
+        if (owners[i] == nullptr && !name.empty()) {
             notes.approximation(obj.mesh.source, line_of(uses, name).number,
                                 "material '" + name + "' is not defined; it is grey");
         }
-        if (found == nullptr) {
+        if (owners[i] == nullptr) {
             indices.push_back(add_plain_surface(scene, !obj.mesh.colors.empty()));
         } else {
-            const auto& entry = found->materials[static_cast<std::size_t>(found->names.at(name))];
-            const auto group = static_cast<uint>(indices.size());
-            indices.push_back(
-                materials.add({*found, entry, line_of(found->lines, entry.name), obj.mesh, group}));
+            const tinyobj::material_t& entry = owners[i]->entry(name);
+            indices.push_back(materials.add(
+                {*owners[i], entry, line_of(owners[i]->lines, entry.name), obj.mesh, static_cast<uint>(i)}));
         }
         name_material(scene, indices.back(), name);
     }
