@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/rendered_picture.h"
 
+#include <system_error>
+
+#include "host/image/image_io.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -37,6 +41,7 @@ void RenderedPicture::add_rows(std::span<const float> rows) {
         files_.write_rows(rows);
         return;
     }
+    prepare_to_write();
     if (!denoiser_) {
         rows_.insert(rows_.end(), rows.begin(), rows.end());
         return;
@@ -46,6 +51,19 @@ void RenderedPicture::add_rows(std::span<const float> rows) {
         const std::span<const float> beauty = pixel.subspan(NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_CHANNELS_RGB);
         rows_.insert(rows_.end(), pixel.begin(), pixel.end());
         rows_.insert(rows_.end(), beauty.begin(), beauty.end());
+    }
+}
+
+/// Loads the libraries of image files beside the rendering, once the first rows are there and the driver has
+/// loaded its kernels: both wait for each other while they load.
+void RenderedPicture::prepare_to_write() {
+    if (libraries_.valid()) {
+        return;
+    }
+    try {
+        libraries_ = std::async(std::launch::async, load_image_libraries);
+    } catch (const std::system_error&) {
+        // Without a thread they are loaded when they are needed.
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,7 @@ class RenderedPicture {
     [[nodiscard]] bool lacks_mattes() const { return lacks_mattes_; }
 
   private:
+    void prepare_to_write();
     void denoise();
     void write_with(const MatteSource& mattes);
     [[nodiscard]] std::size_t pixel_floats() const;
@@ -59,6 +61,7 @@ class RenderedPicture {
     double denoising_seconds_ = 0.0;
     double matte_seconds_ = 0.0;
     bool lacks_mattes_ = false;
+    std::future<void> libraries_;  ///< of image files, which are loaded while rows wait
 };
 
 }  // namespace nearlight::core

@@ -85,6 +85,10 @@ Image read_linear_image(const fs::path& file) {
     return read(file, true);
 }
 
+void load_image_libraries() {
+    static_cast<void>(image_codec());
+}
+
 Metadata read_metadata(const fs::path& file) {
     check_readable(file);
     return image_codec().read_metadata(file);

@@ -28,6 +28,11 @@ Image read_image(std::span<const std::byte> bytes, const std::string& name);
 /// Throws Error(ErrorKind::file).
 Image read_linear_image(const std::filesystem::path& file);
 
+/// Loads the libraries that read and write image files, which otherwise happens when the first file needs
+/// them and takes some tenths of a second. Any thread may call it. Throws Error(ErrorKind::failure) if they
+/// are missing, as the first use of them would.
+void load_image_libraries();
+
 /// Attributes of an image file.
 using Metadata = std::map<std::string, std::variant<int, float, std::string, std::vector<float>>>;
 
