@@ -38,6 +38,13 @@ Image select_channels(const Image& image, const std::vector<std::size_t>& select
     return result;
 }
 
+Image public_image(core::Image image) {
+    return {.width = image.width,
+            .height = image.height,
+            .channels = std::move(image.channels),
+            .values = std::move(image.values)};
+}
+
 /// One layer of a picture, for the metrics. They blame files for what is missing, callers of the library have
 /// none.
 core::Image color_layer(const Image& image, std::string_view name, const char* which) {
@@ -128,11 +135,11 @@ float automatic_exposure(const Image& image) {
 }
 
 Image read_image(const std::filesystem::path& file) {
-    core::Image image = core::read_image(file);
-    return {.width = image.width,
-            .height = image.height,
-            .channels = std::move(image.channels),
-            .values = std::move(image.values)};
+    return public_image(core::read_image(file));
+}
+
+Image read_linear_image(const std::filesystem::path& file) {
+    return public_image(core::read_linear_image(file));
 }
 
 Difference diff(const Image& image, const Image& reference, std::string_view layer) {
@@ -147,11 +154,7 @@ Difference diff(const Image& image, const Image& reference, std::string_view lay
 
 Image diff_map(const Image& image, const Image& reference, std::string_view layer) {
     const ColorLayers layers = color_layers_of(image, reference, layer);
-    core::Image map = core::flip_map(layers.image, layers.reference);
-    return {.width = map.width,
-            .height = map.height,
-            .channels = std::move(map.channels),
-            .values = std::move(map.values)};
+    return public_image(core::flip_map(layers.image, layers.reference));
 }
 
 }  // namespace nearlight

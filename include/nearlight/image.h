@@ -77,6 +77,10 @@ NEARLIGHT_API float automatic_exposure(const Image& image);
 /// reason, ErrorKind::failure if the library's image module is missing. May be called from several threads.
 NEARLIGHT_API Image read_image(const std::filesystem::path& file);
 
+/// Reads a picture with linear values, as renders have them: the sRGB curve of files of integers (PNG, JPEG)
+/// is removed. Their exposure and tone curve stay. Throws as read_image() does, from any thread.
+NEARLIGHT_API Image read_linear_image(const std::filesystem::path& file);
+
 /// How much a picture differs from a reference, over all pixels that are finite in both.
 struct Difference {
     double rmse = 0;             ///< root of the mean square over pixels and R, G, B
@@ -87,8 +91,8 @@ struct Difference {
 };
 
 /// Compares one layer of a picture with that of a reference of the same size. The layer must have the
-/// channels R, G and B. Throws Error: ErrorKind::invalid_argument if the sizes differ or the layer is
-/// missing.
+/// channels R, G and B, with linear values (read_linear_image()). Throws Error: ErrorKind::invalid_argument
+/// if the sizes differ or the layer is missing.
 NEARLIGHT_API Difference diff(const Image& image, const Image& reference, std::string_view layer = "beauty");
 
 /// The FLIP error of each pixel as a picture, from dark (equal) to bright. Takes and throws what diff() does.

@@ -189,13 +189,24 @@ void add_images(py::module_& module) {
         "read_image(file)\n--\n\n"
         "Reads EXR, PNG, JPEG and whatever else OpenImageIO knows, with the values of the file.");
     module.def(
+        "read_linear_image",
+        [](const py::object& file) {
+            const std::filesystem::path path = to_path(file);
+            return std::make_shared<Image>(without_gil([&] { return read_linear_image(path); }));
+        },
+        py::arg("file"),
+        "read_linear_image(file)\n--\n\n"
+        "Reads a picture with linear values, as renders have them: the sRGB curve of PNG and JPEG is "
+        "removed.");
+    module.def(
         "diff",
         [](const SharedImage& image, const SharedImage& reference, const std::string& layer) {
             return without_gil([&] { return diff(*image, *reference, layer); });
         },
         py::arg("image"), py::arg("reference"), py::arg("layer") = "beauty",
         "diff(image, reference, layer='beauty')\n--\n\n"
-        "Compares a layer of a picture with that of a reference of the same size: a Difference.");
+        "Compares a layer of a picture with that of a reference of the same size, both linear: a "
+        "Difference.");
     module.def(
         "diff_map",
         [](const SharedImage& image, const SharedImage& reference, const std::string& layer) {

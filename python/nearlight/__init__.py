@@ -59,6 +59,7 @@ from ._core import (
     load,
     picture_channels,
     read_image,
+    read_linear_image,
 )
 from ._errors import Error, InvalidArgument
 
@@ -104,4 +105,5 @@ __all__ = [
     "load",
     "picture_channels",
     "read_image",
+    "read_linear_image",
 ]

@@ -86,6 +86,18 @@ TEST_F(ImageFiles, PngIsToneMapped) {
     EXPECT_EQ(read.at(1, 0, 2), 0.0f);
 }
 
+TEST_F(ImageFiles, PngIsReadLinear) {
+    write_image(file("a.png"), two_pixels());
+    const Image read = read_linear_image(file("a.png"));
+    for (int x = 0; x < 2; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(read.at(x, 0, c), std::clamp(two_pixels().at(x, 0, c), 0.0f, 1.0f), 0.005f) << x << c;
+        }
+    }
+    write_image(file("a.exr"), two_pixels());
+    EXPECT_EQ(read_linear_image(file("a.exr")).values, two_pixels().values);
+}
+
 TEST_F(ImageFiles, PngHasAToneCurveAndCanHaveAnAutomaticExposure) {
     Image grey{.width = 1, .height = 1, .channels = {"R", "G", "B"}, .values = {0.5f, 0.5f, 0.5f}};
     write_image(file("a.png"), grey, {.tone_curve = ToneCurve::neutral});

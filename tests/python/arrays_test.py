@@ -101,6 +101,13 @@ def test_files_keep_every_bit(picture, tmp_path):
     assert all(np.array_equal(read[layer], picture[layer]) for layer in read.layers)
 
 
+def test_screen_pictures_are_compared_linear(tmp_path):
+    image = nearlight.Image(np.full((2, 3, 3), 0.25, np.float32))
+    image.write(tmp_path / "a.png")
+    assert nearlight.diff(nearlight.read_linear_image(tmp_path / "a.png"), image).rmse < 0.003
+    assert nearlight.read_image(tmp_path / "a.png")["beauty"].max() == pytest.approx(137 / 255)
+
+
 def test_irradiance_follows_the_inverse_square_law(session, vpls):
     points = np.array([[0, 0, 0], [0.75, 0, 0], [0, 0, 0.5]])
     light = session.irradiance(points, [0, 0, 1], vpls, direct_samples=16, paths=16)

@@ -193,7 +193,10 @@ def test_stubs_name_the_members_of_classes_and_no_others(stubs, name):
         assert set(names_in(stubs[name])) - COMMON == members - COMMON
 
 
-@pytest.mark.parametrize("name", ["load", "read_image", "diff", "diff_map", "list_devices", "picture_channels"])
+@pytest.mark.parametrize(
+    "name",
+    ["load", "read_image", "read_linear_image", "diff", "diff_map", "list_devices", "picture_channels"],
+)
 def test_stubs_have_the_arguments_of_functions(stubs, name):
     arguments = stubs[name].args
     named = [argument.arg for argument in arguments.args] + ([arguments.kwarg.arg] if arguments.kwarg else [])
