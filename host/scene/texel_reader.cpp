@@ -68,7 +68,7 @@ TexelReader::TexelReader(const Image& image, const TexelRule& rule, bool holds_f
       rule_(rule),
       holds_floats_(holds_floats),
       channel_(rule.prefers_alpha && is_transparent(image) ? 3 : rule.channel),
-      gamma_(channel_ >= 0 ? 1.0f : (rule.gamma > 0.0f || !holds_floats ? rule.gamma : 1.0f)) {}
+      gamma_(is_linear() ? 1.0f : (rule.gamma > 0.0f || !holds_floats ? rule.gamma : 1.0f)) {}
 
 std::optional<std::vector<std::uint32_t>> TexelReader::bytes() const {
     const bool is_standard = gamma_ == 0.0f || gamma_ == 1.0f;
@@ -123,6 +123,10 @@ std::array<float, 3> TexelReader::undecoded(std::size_t pixel) const {
     const std::array<float, 3> rgb = numbers(pixel);
     constexpr std::array<float, 3> kNoCode{-1.0f, -1.0f, -1.0f};
     return rule_.is_number && !is_grey(rgb) ? kNoCode : rgb;
+}
+
+bool TexelReader::is_linear() const {
+    return channel_ == 3 || (channel_ >= 0 && !rule_.is_encoded);
 }
 
 bool TexelReader::is_steepened() const {

@@ -21,6 +21,7 @@ struct TexelRule {
     bool is_number = false;      ///< one number, the luminance of the colour
     bool is_signed = false;      ///< numbers below 0 mean something
     int channel = -1;            ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
+    bool is_encoded = false;     ///< of a channel but alpha: `gamma` holds for it, too
     bool prefers_alpha = false;  ///< alpha alone, of images in which it is not 1 everywhere
     bool is_inverse = false;     ///< of a channel: 1 − factor·number instead of the number
     float factor = 1.0f;
@@ -59,6 +60,7 @@ class TexelReader {
   private:
     [[nodiscard]] std::array<float, 3> numbers(std::size_t pixel) const;
     [[nodiscard]] std::array<float, 3> undecoded(std::size_t pixel) const;
+    [[nodiscard]] bool is_linear() const;
     [[nodiscard]] bool is_steepened() const;
     [[nodiscard]] float decode(float value) const;
     [[nodiscard]] float encode(float linear) const;

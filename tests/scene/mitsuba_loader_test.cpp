@@ -178,6 +178,15 @@ TEST(MitsubaSensor, LooksAlongPlusZWithPlusXToTheLeft) {
     EXPECT_EQ(scene.max_depth, kUnlimitedPathDepth);
 }
 
+TEST(MitsubaIntegrator, VplsStopAtDepthFiveUnlessTheFileSaysOtherwise) {
+    const SceneFiles files;
+    EXPECT_EQ(files.load_xml("<integrator type='vpl'/>").max_depth, 5);
+    EXPECT_EQ(
+        files.load_xml("<integrator type='vpl'><integer name='maxDepth' value='7'/></integrator>").max_depth,
+        7);
+    EXPECT_EQ(files.load_xml("<integrator type='bdpt'/>").max_depth, kUnlimitedPathDepth);
+}
+
 TEST(MitsubaEmitter, AnAreaLightMayStandBesideItsShape) {
     const SceneFiles files;
     const std::string light = "<emitter type='area' id='lamp'><rgb name='radiance' value='1,2,3'/></emitter>";

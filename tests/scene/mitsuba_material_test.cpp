@@ -315,6 +315,18 @@ TEST_F(MitsubaMaterial, WrapModesFiltersAndGamma) {
     EXPECT_EQ(notes_on_line_2(""), 0u);
 }
 
+TEST_F(MitsubaMaterial, OneChannelOfABitmap) {
+    write_image(files_.path("blue.png"), {1, 1, {"R", "G", "B"}, {0, 0, srgb_decode_table()[128]}});
+    const auto reflectance = [&](const char* channel) {
+        return value(
+            load("diffuse", bitmap("reflectance", "blue.png", text("channel", channel))).reflectance);
+    };
+    expect_near(reflectance("b"), Vec3{1, 1, 1} * srgb_decode_table()[128]);
+    expect_near(reflectance("R"), Vec3{0, 0, 0});
+    expect_near(reflectance("a"), Vec3{1, 1, 1});
+    EXPECT_NE(file_error([&] { reflectance("q"); }).find("channel 'q' is not supported"), std::string::npos);
+}
+
 TEST_F(MitsubaMaterial, CheckerboardsOfTexturesAndOfNumbers) {
     write_pair("ramp.png", 0.0f, 1.0f);
     const std::string board = "<texture type='checkerboard' name='NAME'>" +

@@ -72,6 +72,16 @@ TEST_F(TextureLoaderTest, SingleChannels) {
                 {0.8f, 0.8f, 0.8f}, 1e-3f);
 }
 
+TEST_F(TextureLoaderTest, ChannelsOfColoursAreDecodedButAlphaIsLinear) {
+    const Image image = one_texel({0, 51 / 255.0f, 1, 102 / 255.0f});
+    const Vec3 green = Vec3{1, 1, 1} * srgb_to_linear(0.2f);
+    expect_near(texel_color(add(image, {.channel = 1, .is_encoded = true}), 0), green);
+    expect_near(texel_color(add(image, {.gamma = 2, .channel = 1, .is_encoded = true}), 0),
+                {0.04f, 0.04f, 0.04f}, 1e-4f);
+    expect_near(texel_color(add(image, {.gamma = 2, .channel = 3, .is_encoded = true}), 0),
+                {0.4f, 0.4f, 0.4f});
+}
+
 TEST_F(TextureLoaderTest, AlphaMultipliesLinearColours) {
     const Image image = one_texel({1, 0.5f, 0, 0.25f});
     expect_near(texel_color(add(image, {.times_alpha = true}), 0), {0.25f, 0.25f * srgb_to_linear(0.5f), 0},

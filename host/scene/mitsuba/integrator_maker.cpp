@@ -25,7 +25,8 @@ bool is_one_of(const std::array<std::string_view, N>& names, const Object& objec
 }
 
 int path_depth(const Object& integrator) {
-    const double depth = integrator.number("max_depth", -1.0);
+    constexpr double kVplDepth = 5.0;  // without a word about it, Mitsuba 0.6 stops VPLs at this depth
+    const double depth = integrator.number("max_depth", integrator.type == "vpl" ? kVplDepth : -1.0);
     if (!(depth == -1.0 || (depth >= 1.0 && depth <= 1e6))) {
         fail(integrator.find("max_depth")->where,
              "'max_depth' should be -1 (unlimited), or 1 (emission only) or greater");

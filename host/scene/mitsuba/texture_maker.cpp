@@ -83,6 +83,17 @@ float read_gamma(const Object& texture) {
     return texture.boolean("raw", false) ? 1.0f : static_cast<float>(std::max(gamma, 0.0));
 }
 
+// Mitsuba 0.6 can take one channel of a bitmap, by its name. Returns −1 for all of them.
+int read_channel(const Object& texture) {
+    const std::string name = texture.string("channel", "");
+    constexpr std::string_view kNames = "rgbaRGBA";
+    const std::size_t index = name.size() == 1 ? kNames.find(name) : std::string_view::npos;
+    if (!name.empty() && index == std::string_view::npos) {
+        fail(texture.where, "channel '" + name + "' is not supported; known ones are r, g, b, a");
+    }
+    return name.empty() ? -1 : static_cast<int>(index % 4);
+}
+
 // The texture that a texture of another kind changes.
 const Object& inner_texture(const Object& texture) {
     const std::vector<const Object*> nested = texture.nested("texture");
@@ -254,6 +265,8 @@ Parameter TextureMaker::make_bitmap(const Object& texture, Purpose purpose) {
     set_uv_map(made.parameters, read_uv_map(texture), true);
     TexelRule rule;
     rule.gamma = read_gamma(texture);
+    rule.channel = read_channel(texture);
+    rule.is_encoded = true;
     rule.is_number = purpose == Purpose::number || purpose == Purpose::height;
     rule.is_signed = purpose == Purpose::height || purpose == Purpose::normals;
     const std::filesystem::path file = texture.required_string("filename");
