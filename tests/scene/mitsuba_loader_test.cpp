@@ -93,6 +93,7 @@ TEST(MitsubaTransform, RotatesAboutAnAxisAsItsVersionDoes) {
     for (const char* version : {"0.5.0", "0.6.0", "2.0.0", "3.0.0"}) {
         const Vec3 turned = corner_of(version, unit);  // the corner (2, 0)
         expect_near(turned, {static_cast<float>(2 * c), static_cast<float>(2 * s), 0});
+        expect_near(corner_of(version, "<rotate x='0' y='0' z='0' angle='0'/>"), {2, 2, 0});
     }
     for (const char* version : {"2.0.0", "3.0.0"}) {
         expect_near(corner_of(version, longer), {2 * 0.965926f, 2 * 0.258819f, 2 * -0.258819f});

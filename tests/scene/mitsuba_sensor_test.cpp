@@ -143,8 +143,13 @@ TEST(MitsubaIntegrator, NamesDecideTheDepth) {
     EXPECT_FALSE(load("path").camera.hide_emitters);
     for (const char* type : {"depth", "ao", "stokes", "multichannel"}) {
         EXPECT_TRUE(mentions(file_error([&] { load(type); }),
-                             "scene.xml:2: unknown integrator '" + std::string(type) + "'"));
+                             "scene.xml:2: integrator '" + std::string(type) + "' is not supported"));
     }
+    const Scene guided = load("guided_path", whole("max_depth", 9));
+    EXPECT_EQ(guided.max_depth, 9);
+    EXPECT_TRUE(std::any_of(guided.notes.begin(), guided.notes.end(), [](const Note& note) {
+        return note.text.starts_with("unknown integrator 'guided_path' is taken for") && note.line == 2;
+    }));
     EXPECT_TRUE(mentions(file_error([&] { load("path", whole("max_depth", 0)); }), "max_depth"));
 }
 

@@ -19,6 +19,10 @@ constexpr std::array<std::string_view, 2> kDirectIntegrators{"direct", "direct_p
 // These render the picture of another integrator, which is nested in them, along with something else.
 constexpr std::array<std::string_view, 4> kWrappers{"aov", "moment", "irrcache", "adaptive"};
 
+// These show something else than light.
+constexpr std::array<std::string_view, 7> kOtherPictures{"ao",     "depth",  "field",       "motion",
+                                                         "stokes", "normal", "multichannel"};
+
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, const Object& object) {
     return std::ranges::find(names, object.type) != names.end();
@@ -55,11 +59,16 @@ void apply_integrator(const Object& integrator, Scene& scene, NoteSink& notes) {
         apply_wrapper(integrator, scene, notes);
         return;
     }
+    if (is_one_of(kOtherPictures, integrator)) {
+        fail(integrator.where,
+             "integrator '" + integrator.type +
+                 "' is not supported, because it shows something else than light; use 'path'");
+    }
     const bool is_direct = is_one_of(kDirectIntegrators, integrator);
     if (!is_direct && !is_one_of(kPathIntegrators, integrator)) {
-        fail_unknown_type(integrator,
-                          "path, direct, volpath, volpathmis, ptracer, prb, aov, and Mitsuba 0.5's "
-                          "bdpt, mlt, pssmlt, erpt, photonmapper, ppm, sppm, vpl, irrcache, adaptive");
+        note(
+            notes, integrator.where,
+            "unknown integrator '" + integrator.type + "' is taken for one that makes the picture of 'path'");
     }
     scene.max_depth = is_direct ? kDirectDepth : path_depth(integrator);
     scene.camera.hide_emitters = integrator.boolean("hide_emitters", false);

@@ -136,10 +136,13 @@ Mat4 read_lookat(const Element& element) {
 // stands, so that the same element also stretches if the axis is not of length 1.
 Mat4 read_rotation(const Element& element) {
     const Triple axis = element.triple("value", 0.0, false);
+    const double angle = element.number("angle", 0.0);
     if (axis == Triple{0, 0, 0}) {
+        if (angle == 0.0) {
+            return Mat4{};  // as exporters write it that turn nothing
+        }
         fail(element.where, "rotate needs an axis that is not zero");
     }
-    const double angle = element.number("angle", 0.0);
     return element.is_old() ? rotation(axis[0], axis[1], axis[2], angle)
                             : rodrigues(axis[0], axis[1], axis[2], angle);
 }
