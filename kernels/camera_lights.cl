@@ -34,7 +34,7 @@ kernel void camera_lights_add(const global CameraVertex* restrict vertices, uint
             const uint packet = packet_at(order, place.column, place.row, sample, branch);
             const global CameraVertex* vertex =
                 vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
-            halves[first_sample + sample >= half_end] += vertex->filter_weight * load3(vertex->emitted);
+            halves[first_sample + sample >= half_end] += vertex->filter_weight * load3(vertex->camera_light);
         }
     }
     lights[index].first = store3(halves[0]);
@@ -57,17 +57,20 @@ static inline float squared_light(const global float* sums, uint sample_count) {
     return dot(light, light);
 }
 
-/// The mean of the relative variances of `count` pixels, of one sample each. A tenth of the mean squared
-/// light is added to that of each pixel, so that the dark side of an edge does not outweigh the rest.
+/// What is added to the squared light of each pixel, as a part of the mean of its neighbours: the dark side
+/// of an edge must not outweigh the rest.
+#define ADDED_PART 0.01f
+
+/// The mean of the relative variances of `count` pixels, of one sample each.
 static inline float relative_variance(const float* variances, const float* squares, uint count,
                                       uint sample_count) {
-    float floor_of_squares = 0.0f;
+    float added = 0.0f;
     for (uint i = 0; i < count; ++i) {
-        floor_of_squares += 0.01f * squares[i] / (float)count;
+        added += ADDED_PART * squares[i] / (float)count;
     }
     float sum = 0.0f;
     for (uint i = 0; i < count; ++i) {
-        sum += variances[i] > 0.0f ? variances[i] / (squares[i] + floor_of_squares) : 0.0f;
+        sum += variances[i] > 0.0f ? variances[i] / (squares[i] + added) : 0.0f;
     }
     return count > 0 ? sum * (float)sample_count / (float)count : 0.0f;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera pass: follows camera paths by the part S of surfaces (coats, metals, glass) to receivers, which are
-// the Lambertian parts D of surfaces, and adds up the light of lamps that it meets or finds in S on the way.
+// the Lambertian parts D of surfaces, and adds up the light of emitters that it meets or finds in S on the
+// way.
 //
 // Packets of receivers are in the order of shared/packet_order.h, where rows of tiles count from the first of
 // the band, and lane = row within the tile · NEARLIGHT_TILE_SIZE + column. Each sample has branch_count (1 or
@@ -55,7 +56,7 @@ static inline CameraReceiver absent_receiver(void) {
     receiver.vertex.depth = 0.0f;
     receiver.vertex.albedo = store3((float3)(0.0f));
     receiver.vertex.flags = 0;
-    receiver.vertex.emitted = store3((float3)(0.0f));
+    receiver.vertex.camera_light = store3((float3)(0.0f));
     receiver.vertex.filter_weight = 0.0f;
     receiver.vertex.traced_direct = receiver.vertex.traced_indirect = store3((float3)(0.0f));
     receiver.vertex.pad0 = receiver.vertex.pad1 = 0.0f;
@@ -82,7 +83,7 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
     path.mode = BSDF_CAMERA;
     path.t_min = start.ray.t_min;
     path.t_max = start.ray.t_max;
-    path.emitted = (float3)(0.0f);
+    path.camera_light = (float3)(0.0f);
     path.undivided = branch_count > 1;
     path.filter_weight = start.film.weight;
     path.flags = start.film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
@@ -125,7 +126,7 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                             .clamp_radius = INFINITY,
                             .light_samples = min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
                             .path_count = 1,
-                            .bundle_count = 0,
+                            .bundle_rays = 0,
                             .sample = sequence_index(path),
                             .shared_limit = INFINITY};
     Finds finds = nothing_shared();
@@ -161,7 +162,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
     for (uint step = 0; step < min(limits->max_edges, (uint)MAX_CHAIN); ++step) {
         const SurfaceHit hit = trace_step(scene, camera, path, step, branch, first);
         if (hit.t >= 0.0f || sees_sky) {
-            path->emitted += path->ray.throughput * met_light(scene, &path->ray, &hit);
+            path->camera_light += path->ray.throughput * met_light(scene, &path->ray, &hit);
         }
         if (hit.t < 0.0f) {
             break;
@@ -191,7 +192,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
         // A pane that does not turn the path hides no less than air does, as in Mitsuba.
         sees_sky = sees_sky || any(path->ray.direction != straight);
     }
-    receiver.vertex.emitted = store3(path->emitted);
+    receiver.vertex.camera_light = store3(path->camera_light);
     return receiver;
 }
 
@@ -199,7 +200,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
 static inline void leave_to_branch_0(CameraReceiver* receiver) {
     receiver->vertex.throughput = store3((float3)(0.0f));
     receiver->vertex.albedo = store3((float3)(0.0f));
-    receiver->vertex.emitted = store3((float3)(0.0f));
+    receiver->vertex.camera_light = store3((float3)(0.0f));
     receiver->vertex.traced_direct = receiver->vertex.traced_indirect = store3((float3)(0.0f));
     receiver->normal = (float3)(0.0f);
     receiver->seen.light_samples = 0;

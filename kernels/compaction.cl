@@ -3,36 +3,36 @@
 // by index. Between the first two kernels the host scans the counts of the runs. [paper section 3: the
 // triangles that are kept]
 //
-// Memory: `flags` holds `count` uint, and all but 0 count as set; `chunk_counts` holds one uint for each run;
+// Memory: `flags` holds `count` uint, and all but 0 count as set; `run_counts` holds one uint for each run;
 // `indices` has room for every set flag. Work-group size: any.
 
-#include "lib/chunk.cl"
+#include "lib/run.cl"
 
 /// Work-item i counts the set flags of run i.
-kernel void compaction_count(const global uint* restrict flags, global uint* restrict chunk_counts,
-                             uint count, uint chunk_size, uint chunk_count) {
-    const uint chunk = (uint)get_global_id(0);
-    if (chunk >= chunk_count) {
+kernel void compaction_count(const global uint* restrict flags, global uint* restrict run_counts, uint count,
+                             uint run_size, uint run_count) {
+    const uint run = (uint)get_global_id(0);
+    if (run >= run_count) {
         return;
     }
-    const uint end = chunk_begin(chunk + 1, chunk_size, count);
+    const uint end = run_begin(run + 1, run_size, count);
     uint set = 0;
-    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+    for (uint i = run_begin(run, run_size, count); i < end; ++i) {
         set += flags[i] != 0;
     }
-    chunk_counts[chunk] = set;
+    run_counts[run] = set;
 }
 
-/// Work-item i writes the indices of run i from chunk_offsets[i] on.
-kernel void compaction_write(const global uint* restrict flags, const global uint* restrict chunk_offsets,
-                             global uint* restrict indices, uint count, uint chunk_size, uint chunk_count) {
-    const uint chunk = (uint)get_global_id(0);
-    if (chunk >= chunk_count) {
+/// Work-item i writes the indices of run i from run_offsets[i] on.
+kernel void compaction_write(const global uint* restrict flags, const global uint* restrict run_offsets,
+                             global uint* restrict indices, uint count, uint run_size, uint run_count) {
+    const uint run = (uint)get_global_id(0);
+    if (run >= run_count) {
         return;
     }
-    const uint end = chunk_begin(chunk + 1, chunk_size, count);
-    uint at = chunk_offsets[chunk];
-    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+    const uint end = run_begin(run + 1, run_size, count);
+    uint at = run_offsets[run];
+    for (uint i = run_begin(run, run_size, count); i < end; ++i) {
         if (flags[i] != 0) {
             indices[at++] = i;
         }

@@ -52,7 +52,7 @@ static inline void add_light(global float* pixel, const CameraVertex* vertex,
     const float3 reflectance = load3(vertex->throughput) * load3(vertex->albedo);
     const float weight = vertex->filter_weight;
     const float3 response = weight * reflectance / M_PI_F;
-    const float3 direct = load3(vertex->emitted) + load3(vertex->traced_direct);
+    const float3 direct = load3(vertex->camera_light) + load3(vertex->traced_direct);
     add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, weight * direct + response * light->direct);
     add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
                weight * load3(vertex->traced_indirect) + response * light->indirect);

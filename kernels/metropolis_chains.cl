@@ -51,21 +51,21 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
     const SceneView scene = SCENE_VIEW;
     const float2 choice = numbers[index];
     const uint last = search_cdf(depth_cdf, bounce_count, choice.x);
-    const float probability = depth_cdf[last] - (last == 0 ? 0.0f : depth_cdf[last - 1]);
+    const float probability = step_of_cdf(depth_cdf, last);
     EmittedParticle particle = emit_particle(&scene, &aim, (float2)(choice.y, 0.0f), numbers[count + index],
                                              numbers[2 * count + index]);
     Landing at;
     float3 reflected = (float3)(0.0f);
     for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {
         const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * step;
-        const float2 choice = numbers[pair * count + index];
-        if (!land(&scene, &particle, choice.x, &at)) {
+        const float2 choice_here = numbers[pair * count + index];
+        if (!land(&scene, &particle, choice_here.x, &at)) {
             break;
         }
         if (step == last) {
             reflected = reflected_flux(&scene, &particle, &at);
         } else {
-            scatter(&scene, &particle, &at, &aim, choice.y, numbers[(pair + 1) * count + index]);
+            scatter(&scene, &particle, &at, &aim, choice_here.y, numbers[(pair + 1) * count + index]);
         }
     }
     if (is_black(reflected)) {

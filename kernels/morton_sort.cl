@@ -6,12 +6,12 @@
 // triangles]
 //
 // Memory: `keys` and `values` hold `count` uint; `positions` has 256 counters for each run, with that of
-// digit d and run r at d · chunk_count + r. Points are the first three floats of elements of `stride` floats.
+// digit d and run r at d · run_count + r. Points are the first three floats of elements of `stride` floats.
 // Work-group size: any.
 
-#include "lib/chunk.cl"
 #include "lib/math.cl"
 #include "lib/morton.cl"
+#include "lib/run.cl"
 
 #define DIGIT_COUNT 256
 #define DIGIT_OF(key, shift) (((key) >> (shift)) & (DIGIT_COUNT - 1))
@@ -24,23 +24,23 @@ static inline float3 load_point(const global float* restrict points, uint index,
 /// Work-item i finds the box of run i: six floats, minimum then maximum. Points that are not finite do not
 /// count. A box without points is empty (minimum ∞, maximum −∞).
 kernel void morton_bounds(const global float* restrict points, global float* restrict boxes, uint stride,
-                          uint count, uint chunk_size, uint chunk_count) {
-    const uint chunk = (uint)get_global_id(0);
-    if (chunk >= chunk_count) {
+                          uint count, uint run_size, uint run_count) {
+    const uint run = (uint)get_global_id(0);
+    if (run >= run_count) {
         return;
     }
-    const uint end = chunk_begin(chunk + 1, chunk_size, count);
+    const uint end = run_begin(run + 1, run_size, count);
     float3 low = (float3)(INFINITY);
     float3 high = (float3)(-INFINITY);
-    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+    for (uint i = run_begin(run, run_size, count); i < end; ++i) {
         const float3 point = load_point(points, i, stride);
         if (isfinite(point.x) && isfinite(point.y) && isfinite(point.z)) {
             low = fmin(low, point);
             high = fmax(high, point);
         }
     }
-    vstore3(low, 2 * chunk, boxes);
-    vstore3(high, 2 * chunk + 1, boxes);
+    vstore3(low, 2 * run, boxes);
+    vstore3(high, 2 * run + 1, boxes);
 }
 
 /// Sets codes[i] to the Morton code of point i, and values[i] to i. One work-item for each point.
@@ -58,39 +58,39 @@ kernel void morton_codes(const global float* restrict points, global uint* restr
 
 /// Work-item i counts the digits of run i.
 kernel void sort_count(const global uint* restrict keys, global uint* restrict positions, uint shift,
-                       uint count, uint chunk_size, uint chunk_count) {
-    const uint chunk = (uint)get_global_id(0);
-    if (chunk >= chunk_count) {
+                       uint count, uint run_size, uint run_count) {
+    const uint run = (uint)get_global_id(0);
+    if (run >= run_count) {
         return;
     }
     uint counters[DIGIT_COUNT];
     for (uint digit = 0; digit < DIGIT_COUNT; ++digit) {
         counters[digit] = 0;
     }
-    const uint end = chunk_begin(chunk + 1, chunk_size, count);
-    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+    const uint end = run_begin(run + 1, run_size, count);
+    for (uint i = run_begin(run, run_size, count); i < end; ++i) {
         ++counters[DIGIT_OF(keys[i], shift)];
     }
     for (uint digit = 0; digit < DIGIT_COUNT; ++digit) {
-        positions[digit * chunk_count + chunk] = counters[digit];
+        positions[digit * run_count + run] = counters[digit];
     }
 }
 
 /// Work-item i moves the pairs of run i, in order.
 kernel void sort_scatter(const global uint* restrict keys, const global uint* restrict values,
                          const global uint* restrict positions, global uint* restrict sorted_keys,
-                         global uint* restrict sorted_values, uint shift, uint count, uint chunk_size,
-                         uint chunk_count) {
-    const uint chunk = (uint)get_global_id(0);
-    if (chunk >= chunk_count) {
+                         global uint* restrict sorted_values, uint shift, uint count, uint run_size,
+                         uint run_count) {
+    const uint run = (uint)get_global_id(0);
+    if (run >= run_count) {
         return;
     }
     uint next[DIGIT_COUNT];
     for (uint digit = 0; digit < DIGIT_COUNT; ++digit) {
-        next[digit] = positions[digit * chunk_count + chunk];
+        next[digit] = positions[digit * run_count + run];
     }
-    const uint end = chunk_begin(chunk + 1, chunk_size, count);
-    for (uint i = chunk_begin(chunk, chunk_size, count); i < end; ++i) {
+    const uint end = run_begin(run + 1, run_size, count);
+    for (uint i = run_begin(run, run_size, count); i < end; ++i) {
         const uint key = keys[i];
         const uint at = next[DIGIT_OF(key, shift)]++;
         sorted_keys[at] = key;

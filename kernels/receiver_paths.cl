@@ -37,7 +37,7 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
                                .clamp_radius = params->clamp_radius,
                                .light_samples = params->light_samples,
                                .path_count = params->path_count,
-                               .bundle_count = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
+                               .bundle_rays = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
                                .sample = receiver_sample(receiver, lane),
                                .shared_limit = params->shared_limit};
     return limits;

@@ -47,7 +47,7 @@ Inspection inspect(Session& session, const Frame& frame, int x, int y) {
     for (const LightShare& share : result.shares) {
         if (share.kind == LightKind::vpl) {
             result.from_vpls = result.from_vpls + share.irradiance;
-            result.clamped = result.clamped + share.clamped;
+            result.clamped = result.clamped + share.taken_by_clamp;
         }
     }
     const VplSet none = session.sample(*frame.view, {.vpl_count = 0});

@@ -22,7 +22,7 @@ struct GatherSegments {
     Scene geometry;  ///< vertices and triangles that block light; one material, no lights, no camera
     std::vector<Vpl> vpls;
     std::vector<ReceiverPacket> receivers;
-    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
+    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
     PairMask rays;              ///< pairs that are segments; the other pairs were culled
 
     [[nodiscard]] std::size_t word(std::size_t packet, std::size_t vpl) const {

@@ -89,8 +89,8 @@ Work picture_work(Device& device, const Room& room) {
               receiver_paths(on),
               camera(on, std::span(&of.view.camera, 1)),
               close_range(on, std::span(&of.view.close_range, 1)),
-              band{.tile_row_count = tiles_across(of.view.camera.height)},
-              packets(packet_count(band, of.view.camera.width)),
+              batch{.tile_row_count = tiles_across(of.view.camera.height)},
+              packets(packet_count(batch, of.view.camera.width)),
               receivers(on, packets),
               vertices(on, packets * NEARLIGHT_PACKET_SIZE),
               direct(on, packets),
@@ -99,7 +99,7 @@ Work picture_work(Device& device, const Room& room) {
         ReceiverPaths receiver_paths;
         Buffer<Camera> camera;
         Buffer<CloseRange> close_range;
-        CameraBand band;
+        CameraBatch batch;
         std::size_t packets;
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
@@ -109,7 +109,7 @@ Work picture_work(Device& device, const Room& room) {
     return {[state, &room] {
                 State& s = *state;
                 const DeviceScene& scene = room.session.device_scene();
-                s.camera_pass.run({scene, s.camera, room.view.camera.width, s.close_range, s.band, 1},
+                s.camera_pass.run({scene, s.camera, room.view.camera.width, s.close_range, s.batch, 1},
                                   {s.receivers, s.vertices});
                 s.receiver_paths.run({scene,
                                       s.receivers,

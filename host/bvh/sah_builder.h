@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "host/bvh/bvh.h"
 #include "host/bvh/unset_vector.h"

@@ -147,7 +147,7 @@ Json record_json(const PassRecord& record) {
     }
     if (record.choice) {
         json["choice"] = {record.choice->range, record.choice->ray_budget.clamp_radius,
-                          record.choice->ray_budget.light_samples_per_pixel,
+                          record.choice->ray_budget.direct_samples_per_pixel,
                           record.choice->ray_budget.shared_limit};
     }
     return json;
@@ -181,7 +181,7 @@ PassRecord record_in(const Json& json) {
     if (const Json& choice = json.at("choice"); !choice.is_null()) {
         record.choice = {.range = choice.at(0),
                          .ray_budget = {.clamp_radius = choice.at(1),
-                                        .light_samples_per_pixel = whole_in<uint>(choice.at(2)),
+                                        .direct_samples_per_pixel = whole_in<uint>(choice.at(2)),
                                         .shared_limit = choice.at(3)}};
     }
     return record;

@@ -11,7 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 

@@ -193,7 +193,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
         ->capture_default_str();
     command
         .add_option("--clamp-radius", settings.clamp_radius,
-                    "Clamp radius of all samplers and of the reference, in scene units")
+                    "Clamp radius of all samplers and of the reference, in m")
         ->check(number_from(0, 1e9))
         ->type_name("R");
     command
@@ -203,7 +203,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
         ->type_name("F");
     command
         .add_option("--range", settings.range,
-                    "Distance from the camera at which the close range ends, in scene units (default: as in "
+                    "Distance from the camera at which the close range ends, in m (default: as in "
                     "`render`)")
         ->check(CLI::Range(1e-6f, 1e9f))
         ->type_name("R");

@@ -74,7 +74,7 @@ void add_refine_option(CLI::App& command, GatherSettings& gather) {
 void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot) {
     command
         .add_option("--range", texts.range,
-                    "Distance from the camera at which the close range ends: scene units, or auto")
+                    "Distance from the camera at which the close range ends: in m, or auto")
         ->type_name("R")
         ->capture_default_str();
     command
@@ -82,7 +82,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
             "--clamp-radius", texts.clamp_radius,
             fmt::format(
                 "VPLs closer than R light a point as if they were at the distance R, and rays "
-                "bring back the rest: scene units, or auto, which {}",
+                "bring back the rest: in m, or auto, which {}",
                 pilot == Pilot::runs ? "chooses the radius of least noise" : "is a twentieth of the range"))
         ->type_name("R")
         ->capture_default_str();

@@ -231,7 +231,7 @@ void add_reference_command(CommandLine& line) {
         ->check(CLI::Range(1, 1 << 24));
     command
         .add_option("--clamp-radius", options->clamp_radius,
-                    "Clamp radius, in scene units: bound 1/r² below this distance; 0 bounds nothing")
+                    "Clamp radius, in m: bound 1/r² below this distance; 0 bounds nothing")
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--indirect-only", options->indirect_only, "Leave out emission and direct light");
     command.add_flag("--pixel-centers", options->pixel_centers,

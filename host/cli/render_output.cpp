@@ -75,7 +75,7 @@ void add_method(nlohmann::ordered_json& json, const RenderFacts& facts) {
     const RenderReport& report = facts.report;
     json["clamp_radius"] = report.ray_budget.clamp_radius;
     json["rays_per_pixel"] = settings.gather.rays_per_pixel;
-    json["direct_samples_per_pixel"] = report.ray_budget.light_samples_per_pixel;
+    json["direct_samples_per_pixel"] = report.ray_budget.direct_samples_per_pixel;
     json["compensate"] = settings.gather.compensate;
     json["refine"] = settings.gather.refine;
     json["glass"] = glass_name(facts.scene.clear_glass);
@@ -159,7 +159,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     }
     metadata["nearlight:clampRadius"] = report.ray_budget.clamp_radius;
     metadata["nearlight:raysPerPixel"] = static_cast<int>(settings.gather.rays_per_pixel);
-    metadata["nearlight:directSamplesPerPixel"] = static_cast<int>(report.ray_budget.light_samples_per_pixel);
+    metadata["nearlight:directSamplesPerPixel"] = static_cast<int>(report.ray_budget.direct_samples_per_pixel);
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
     metadata["nearlight:refine"] = settings.gather.refine ? "on" : "off";
     metadata["nearlight:glass"] = glass_name(scene.clear_glass);

@@ -277,7 +277,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         sinks.open(run, started, view);
     };
     hooks.rows = [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); };
-    hooks.progress = [&](const std::string&, double fraction) {
+    hooks.progress = [&](double fraction) {
         notice.reset();
         bar.update(fraction, seconds_left(run, since_begin));
         return !interrupted();

@@ -55,7 +55,7 @@ std::string reference_text(const Reference& reference) {
 std::string scene_text(const SceneComparison& scene) {
     const SceneFacts& facts = scene.facts;
     return fmt::format(
-        "{}, {} triangles; clamp radius {:.4g} scene units, depth {}, close range up to {:.4g} scene units; "
+        "{}, {} triangles; clamp radius {:.4g} m, depth {}, close range up to {:.4g} m; "
         "reference: {}",
         facts.source, facts.triangles, facts.clamp_radius, facts.max_depth, facts.range,
         reference_text(scene.reference));

@@ -24,10 +24,6 @@ void append_channels(std::span<const float> rows, std::size_t first, std::size_t
     }
 }
 
-bool go_on(const std::string&, double) {
-    return true;
-}
-
 void require_light(const Scene& scene, const std::string& name) {
     if (build_emitter_table(scene).emitters.empty()) {
         throw Error(ErrorKind::file,
@@ -68,7 +64,7 @@ SceneBench::FirstLook SceneBench::look() {
     FirstLook found;
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
-    RenderHooks hooks{.progress = go_on};
+    RenderHooks hooks;
     hooks.start = [&](const RenderReport&, const View& view, const VplSet& vpls) {
         facts_.camera = view.scene_camera;
         found.surface = !view.pilot.distances.empty();
@@ -138,7 +134,7 @@ std::optional<Shot> SceneBench::render_indirect(const RenderSettings& settings, 
     hooks.rows = [&](std::span<const float> rows) {
         append_channels(rows, NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_CHANNELS_RGB, shot.indirect.values);
     };
-    hooks.progress = [&](const std::string&, double fraction) { return progress(fraction); };
+    hooks.progress = [&](double fraction) { return progress(fraction); };
     shot.report = render(session_, settings, hooks);
     return shot.report.interrupted ? std::nullopt : std::optional(std::move(shot));
 }

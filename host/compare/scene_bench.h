@@ -26,8 +26,8 @@ struct SceneFacts {
     std::string source;  ///< the scene's file
     std::uint64_t hash = 0;
     std::size_t triangles = 0;
-    float range = 0;         ///< range of the close range, scene units
-    float clamp_radius = 0;  ///< scene units
+    float range = 0;         ///< range of the close range, m
+    float clamp_radius = 0;  ///< m
     uint max_depth = 0;      ///< in Mitsuba's counting
     SceneCamera camera{};    ///< with the picture size of the comparison
     SetupSeconds setup{};
@@ -50,7 +50,7 @@ class SceneBench {
     [[nodiscard]] const SceneFacts& facts() const { return facts_; }
     /// The picture with direct and indirect light, R, G, B.
     [[nodiscard]] const Image& overview() const { return overview_; }
-    /// Distance of the first surface from the camera for each pixel, scene units; 0: none.
+    /// Distance of the first surface from the camera for each pixel, m; 0: none.
     [[nodiscard]] const std::vector<float>& depths() const { return depths_; }
 
     /// Receives the fraction that is done, 0 to 1. It returns false to stop.

@@ -35,9 +35,9 @@ struct CompareSettings {
     int width = 320;
     int height = 240;
     uint samples_per_pixel = 1;
-    std::optional<float> clamp_radius;    ///< scene units
+    std::optional<float> clamp_radius;    ///< m
     std::optional<float> clamp_fraction;  ///< of the range; kDefaultClampFraction if neither is given
-    std::optional<float> range;           ///< range of the close range, scene units; empty: from the view
+    std::optional<float> range;           ///< range of the close range, m; empty: from the view
     std::optional<uint> max_depth;        ///< in Mitsuba's counting; empty: the scene's, or 256
     int reference_spp = 1024;             ///< samples per pixel of a path-traced reference
     std::size_t reference_vpls = 0;       ///< VPLs of a reference of VPLs; 0: the reference is path-traced

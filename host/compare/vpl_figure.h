@@ -14,7 +14,7 @@ namespace nearlight::core {
 struct FilmPoint {
     float x = 0;  ///< pixels from the top left corner
     float y = 0;
-    float distance = 0;  ///< from the camera, scene units
+    float distance = 0;  ///< from the camera, m
 };
 /// The place where the camera sees a point; empty for a point behind the camera or outside the picture.
 std::optional<FilmPoint> project(const SceneCamera& camera, Vec3 point);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "host/library/checks.h"
@@ -202,7 +201,7 @@ Picture render_picture(core::Session& session, const RenderSettings& settings, c
         picture.image = blank_picture(started.width, started.height);
     };
     hooks.rows = [&](std::span<const float> rows) { fill(rows); };
-    hooks.progress = [&](const std::string&, double fraction) { return !progress || progress(fraction); };
+    hooks.progress = [&](double fraction) { return !progress || progress(fraction); };
     const core::RenderReport report = core::render(session, settings, hooks);
     picture.passes = report.passes;
     picture.vpl_count = report.totals.close_vpls + report.totals.distant_vpls;

@@ -75,7 +75,7 @@ std::vector<Hello> Helpers::wait_until_ready() {
 RemoteDevices Helpers::devices() {
     RemoteDevices remote{
         .devices = {},
-        .show = [this](const Picture& picture, std::span<const Vpl> vpls) { return show(picture, vpls); },
+        .show = [this](const PictureTask& picture, std::span<const Vpl> vpls) { return show(picture, vpls); },
         .order =
             [this](PictureNumber picture, std::size_t device, uint band) {
                 order({picture, device, band});
@@ -95,7 +95,7 @@ RemoteDevices Helpers::devices() {
     return remote;
 }
 
-PictureNumber Helpers::show(const Picture& picture, std::span<const Vpl> vpls) {
+PictureNumber Helpers::show(const PictureTask& picture, std::span<const Vpl> vpls) {
     const PictureNumber number = [this] {
         const std::lock_guard lock(mutex_);
         return ++shown_;

@@ -45,7 +45,7 @@ class Helpers {
         std::optional<Error> failure{};
     };
 
-    PictureNumber show(const Picture& picture, std::span<const Vpl> vpls);
+    PictureNumber show(const PictureTask& picture, std::span<const Vpl> vpls);
     void order(const Key& key);
     std::optional<FinishedBand> fetch(const Key& key, const WorkProgress& progress);
     void end(PictureNumber picture);

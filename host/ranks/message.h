@@ -21,7 +21,7 @@ namespace nearlight::core {
 /// The leading rank says the first six, the helping ranks the next ones. Helpers pass `picture` on, and all
 /// say `alive`.
 enum class MessageKind : std::uint32_t {
-    picture,       ///< a Picture and its VPLs; each helper passes it on to others
+    picture,       ///< a PictureTask and its VPLs; each helper passes it on to others
     order,         ///< make a band
     end_picture,   ///< forget a picture
     end_job,       ///< make no more bands, and say goodbye

@@ -7,7 +7,6 @@
 #include <functional>
 #include <future>
 #include <list>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>

@@ -74,8 +74,8 @@ void Service::receive(const Message& message) {
     switch (head.kind) {
         case MessageKind::picture:
             if (ended_early_.erase(head.picture) == 0) {
-                pictures_[head.picture] = std::make_shared<const ShownPicture>(
-                    ShownPicture{message.first<Picture>(), VplBuffer(message.body<Vpl>(sizeof(Picture)))});
+                pictures_[head.picture] = std::make_shared<const ShownPicture>(ShownPicture{
+                    message.first<PictureTask>(), VplBuffer(message.body<Vpl>(sizeof(PictureTask)))});
             }
             break;
         case MessageKind::order:

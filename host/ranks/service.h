@@ -8,7 +8,6 @@
 #include <memory>
 #include <mutex>
 #include <set>
-#include <vector>
 
 #include "host/ranks/hello.h"
 #include "host/ranks/post.h"
@@ -42,7 +41,7 @@ class Service {
 
   private:
     struct ShownPicture {
-        Picture picture;
+        PictureTask picture;
         VplBuffer vpls;
     };
     struct Order {

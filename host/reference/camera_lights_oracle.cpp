@@ -54,7 +54,7 @@ CameraLight expected_camera_light(const FilmSamples& samples, const FilmLayout& 
         const CameraVertex& vertex = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         for (std::size_t c = 0; c < 3; ++c) {
             halves[sample < half_end ? 0 : 1][c] +=
-                double{vertex.filter_weight} * channels(vertex.emitted)[c];
+                double{vertex.filter_weight} * channels(vertex.camera_light)[c];
         }
     }
     const auto vec3 = [](const std::array<double, 3>& v) {

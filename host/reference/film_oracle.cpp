@@ -72,7 +72,7 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
                                         .depth = depth,
                                         .albedo = color(),
                                         .flags = random.next() % 4,
-                                        .emitted = color(),
+                                        .camera_light = color(),
                                         .filter_weight = 2.0f * random.uniform() - 0.5f,
                                         .traced_direct = color(),
                                         .pad0 = 0.0f,
@@ -100,7 +100,7 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
             const double weight = vertex.filter_weight;
             const double direct =
-                weight * (channel(vertex.emitted, axis) + channel(vertex.traced_direct, axis) +
+                weight * (channel(vertex.camera_light, axis) + channel(vertex.traced_direct, axis) +
                           reflectance / kPi * (&samples.direct[packet].r[0])[at]);
             const double indirect =
                 weight * (channel(vertex.traced_indirect, axis) +

@@ -53,9 +53,6 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
 
     const Vec3 interpolated = a.normal * weight_a + b.normal * hit.u + c.normal * hit.v;
     surface.front_normal = length(interpolated) > 1e-6f ? normalize(interpolated) : normal;
-    surface.shading_normal = dot(surface.front_normal, surface.geometric_normal) < 0.0f
-                                 ? -surface.front_normal
-                                 : surface.front_normal;
     return surface;
 }
 

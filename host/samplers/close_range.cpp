@@ -65,7 +65,6 @@ std::vector<Vpl> place_about(SamplerStages& stages, const SamplingTask& task, Cl
 
 VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& task, CloseSurface& surface) {
     VplSet set;
-    set.close_triangles = surface.triangle_count();
     set.close_fraction =
         task.close_fraction ? *task.close_fraction : choose_close_fraction(stages, task, surface.region());
     const uint close_budget =

@@ -131,7 +131,7 @@ struct WeighedDeposits {
 WeighedDeposits weigh_deposits(SamplerStages& stages, const SamplingTask& task,
                                std::span<const Vpl> deposits) {
     WeighedDeposits weighed{.vpls = stages.vpl_order.sorted(deposits), .weights = {}};
-    weighed.weights = choice_weights(stages, task, weighed.vpls, ContributionNorm::rough_mean_square);
+    weighed.weights = choice_weights(stages, task, weighed.vpls, ContributionNorm::error_of_draw);
     add_neighbourhood_errors(task, weighed.vpls, task.view.few_squared_importons.count, weighed.weights);
     return weighed;
 }
@@ -325,7 +325,6 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     set.distant_count = vpls.size() - set.close_count;
     set.sparse_count = candidates.sparse.vpls.count() + rough_sparse.vpls.count();
     set.candidate_count = candidates.vpls.size();
-    set.close_triangles = surface.triangle_count();
     set.close_fraction =
         static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
     return set;

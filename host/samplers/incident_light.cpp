@@ -67,7 +67,7 @@ SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint
                                             KeepDeposits::all, std::max(wanted, wanted_deposits))
                                     .vpls);
     const std::vector<float> weights =
-        choice_weights(stages, task, deposits, ContributionNorm::rough_mean_square);
+        choice_weights(stages, task, deposits, ContributionNorm::error_of_draw);
     return draw_sparse_set(stages, task, deposits, weights, wanted, seed);
 }
 

@@ -49,7 +49,7 @@ VplSet sample_local(SamplerStages& stages, const SamplingTask& task) {
     set.distant_count = set.vpls.count();
     set.local =
         LocalLightPlan{.clamp_radius = task.clamp_radius,
-                       .widest_radius = widest,
+                       .max_radius = widest,
                        .radius_at_unit_light = std::sqrt(kVplsInGatherRadius / (kPi * walks_per_watt)),
                        .rays_per_receiver = kRaysPerReceiver,
                        .connections = kConnections,

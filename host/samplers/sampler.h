@@ -45,7 +45,7 @@ struct SamplingTask {
 /// What a pixel spends beside the gather of VPLs, and where the VPLs end and rays begin.
 struct RayBudget {
     float clamp_radius = 0.0f;  ///< m
-    uint light_samples_per_pixel = 64;
+    uint direct_samples_per_pixel = 64;
     float shared_limit = std::numeric_limits<float>::max();  ///< GatherSettings::shared_limit, W/m²/sr
 
     friend bool operator==(const RayBudget&, const RayBudget&) = default;
@@ -64,7 +64,6 @@ struct VplSet {
     /// deposits there. The policies `partition` and `paper` count all deposits as distant.
     std::size_t close_count = 0;
     std::size_t distant_count = 0;    ///< all other VPLs
-    std::size_t close_triangles = 0;  ///< triangles that patches were placed on
     std::size_t sparse_count = 0;     ///< VPLs of the sparse sets, which no pixel gathers
     std::size_t candidate_count = 0;  ///< candidates that `vpls` were chosen from; 0: there was no choice
     /// With cuts, the number of VPLs that a pixel asks about, which is less than all; 0: it asks about all.

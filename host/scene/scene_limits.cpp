@@ -2,9 +2,7 @@
 #include "host/scene/scene_limits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <span>
 
 #include "host/base/math.h"
 #include "host/scene/ray_epsilon.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene_overrides.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>

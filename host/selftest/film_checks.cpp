@@ -14,7 +14,7 @@ namespace nearlight::core {
 namespace {
 
 /// All samples of a layout in one batch.
-CameraBand whole_band(const FilmLayout& layout) {
+CameraBatch whole_batch(const FilmLayout& layout) {
     return {.tile_row_count = static_cast<uint>(layout.tile_rows()),
             .sample_count = layout.samples,
             .samples_per_pixel = layout.samples,
@@ -31,7 +31,7 @@ bool are_close(Vec3 a, Vec3 b, double tolerance) {
 void check_film(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 53, .height = 37};
     const FilmSamples samples = random_film_samples(layout);
-    const CameraBand band = whole_band(layout);
+    const CameraBatch batch = whole_batch(layout);
     const std::size_t pixels = std::size_t{layout.width} * layout.height;
     const Buffer<ReceiverPacket> receivers(device, samples.receivers);
     const Buffer<CameraVertex> vertices(device, samples.vertices);
@@ -42,7 +42,7 @@ void check_film(Device& device, CheckResult& result) {
     Buffer<float> layers(device, pixels * NEARLIGHT_LAYER_CHANNELS);
     sums.fill_zero();
     Film film(device);
-    film.add(receivers, vertices, {.direct = direct, .gathered = gathered, .indirect = indirect}, band,
+    film.add(receivers, vertices, {.direct = direct, .gathered = gathered, .indirect = indirect}, batch,
              layout.width, layout.height, sums);
     film.resolve(sums, pixels, layout.samples, layers);
     const std::vector<float> found = layers.download();
@@ -59,7 +59,7 @@ void check_film(Device& device, CheckResult& result) {
 void check_camera_lights(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 53, .height = 37, .samples = 5};
     const FilmSamples samples = random_film_samples(layout);
-    const CameraBand band = whole_band(layout);
+    const CameraBatch batch = whole_batch(layout);
     const std::size_t pixels = std::size_t{layout.width} * layout.height;
     const uint half = layout.samples / 2;
     const Buffer<CameraVertex> vertices(device, samples.vertices);
@@ -69,7 +69,7 @@ void check_camera_lights(Device& device, CheckResult& result) {
     Buffer<uint> rounds(device, pixels);
     lights.fill_zero();
     CameraLights stage(device);
-    stage.add(vertices, band, layout.width, layout.height, half, lights);
+    stage.add(vertices, batch, layout.width, layout.height, half, lights);
     const std::vector<CameraLight> found = lights.download();
     stage.choose(lights, sums, {layout.width, layout.height, layout.samples}, rounds);
     const std::vector<uint> chosen = rounds.download();

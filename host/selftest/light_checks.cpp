@@ -131,8 +131,8 @@ void check_camera_pass(Device& device, CheckResult& result) {
     const Scene scene = make_sphere_room(kLightTriangles);
     const Camera camera = make_camera(scene.camera, 150, 101);
     const CloseRange region = make_close_range(camera, 4.0f);
-    const CameraBand band{.tile_row_count = tiles_across(camera.height)};
-    const std::size_t packets = packet_count(band, camera.width);
+    const CameraBatch batch{.tile_row_count = tiles_across(camera.height)};
+    const std::size_t packets = packet_count(batch, camera.width);
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
@@ -140,7 +140,7 @@ void check_camera_pass(Device& device, CheckResult& result) {
                             .camera = Buffer<Camera>(device, std::span(&camera, 1)),
                             .width = camera.width,
                             .close_range = Buffer<CloseRange>(device, std::span(&region, 1)),
-                            .band = band,
+                            .batch = batch,
                             .seed = 1},
                            {receivers, vertices});
     const CameraComparison comparison =

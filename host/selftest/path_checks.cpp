@@ -45,7 +45,7 @@ std::vector<Vec3> lanes_of(const IrradiancePacket& packet) {
 }
 
 constexpr LocalLightPlan kPlan{.clamp_radius = 0.1f,
-                               .widest_radius = 0.8f,
+                               .max_radius = 0.8f,
                                .radius_at_unit_light = 0.2f,
                                .rays_per_receiver = 2,
                                .connections = 0,
@@ -90,11 +90,11 @@ Vec3 exitance(const Scene& scene, const EmbreeScene& embree, const Vpl& light) {
 /// except for rounding.
 bool radius_fits(float radius, Vec3 irradiance) {
     const float wanted = kPlan.radius_at_unit_light / std::sqrt(luminance(irradiance));
-    float min_wanted = kPlan.widest_radius;
+    float min_wanted = kPlan.max_radius;
     for (int level = 1; level < 4 && min_wanted > wanted * 1.001f; ++level) {
         min_wanted *= 0.5f;
     }
-    float max_wanted = kPlan.widest_radius;
+    float max_wanted = kPlan.max_radius;
     for (int level = 1; level < 4 && max_wanted > wanted * 0.999f; ++level) {
         max_wanted *= 0.5f;
     }

@@ -41,7 +41,7 @@ double work_above(const std::vector<double>& strips, uint height, double row) {
 }  // namespace
 
 std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
-                                   const SceneCamera& camera, const CameraBand& like, uint seed) {
+                                   const SceneCamera& camera, const CameraBatch& like, uint seed) {
     constexpr int kHeight = kStripCount * NEARLIGHT_TILE_SIZE;
     const int width =
         std::clamp(static_cast<int>(std::int64_t{kHeight} * camera.width / std::max(camera.height, 1)), 8,
@@ -49,15 +49,15 @@ std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, cons
     SceneCamera unfiltered = camera;
     unfiltered.filter = {};
     const Camera small = make_camera(unfiltered, width, kHeight);
-    const CameraBand band{
+    const CameraBatch batch{
         .tile_row_count = kStripCount, .branch_count = like.branch_count, .min_weight = like.min_weight};
-    const std::size_t packets = packet_count(band, small.width);
+    const std::size_t packets = packet_count(batch, small.width);
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
     const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run({scene, camera_buffer, small.width, close_range, band, seed}, {receivers, vertices});
+    camera_pass.run({scene, camera_buffer, small.width, close_range, batch, seed}, {receivers, vertices});
     const std::vector<ReceiverPacket> found = receivers.download();
     std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
     for (std::size_t i = 0; i < packets; ++i) {

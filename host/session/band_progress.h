@@ -15,7 +15,7 @@ namespace nearlight::core {
 /// Counts the receivers of a small picture, with the branches and the smallest weight of `like`, which takes
 /// milliseconds.
 std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
-                                   const SceneCamera& camera, const CameraBand& like, uint seed);
+                                   const SceneCamera& camera, const CameraBatch& like, uint seed);
 
 /// The part of a picture's work that is done when that part of its bands is, both from 0 to 1. `height` is
 /// that of the whole picture in pixels, and `strips` are its work. Bands are finished about in order.

@@ -16,14 +16,14 @@ uint per_sample(uint per_pixel, const GatherSettings& settings) {
 }
 
 /// Whether bundles share what the rays of their receivers find.
-bool shares_lights(const Picture& picture) {
+bool shares_lights(const PictureTask& picture) {
     return picture.settings.compensate && std::isfinite(picture.budget.clamp_radius);
 }
 
-ReceiverPathSettings path_settings(const DeviceScene& scene, const Picture& picture) {
+ReceiverPathSettings path_settings(const DeviceScene& scene, const PictureTask& picture) {
     const GatherSettings& settings = picture.settings;
     const uint rays = per_sample(settings.rays_per_pixel, settings);
-    return {.light_samples = per_sample(picture.budget.light_samples_per_pixel, settings),
+    return {.light_samples = per_sample(picture.budget.direct_samples_per_pixel, settings),
             .path_count = settings.compensate ? rays : 0,
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
@@ -35,21 +35,21 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const Picture& pict
 }
 
 /// A batch of the plan, which knows only places on the film, with what it takes to add up light.
-CameraBand with_light(CameraBand batch, const Picture& picture, const ReceiverPathSettings& paths) {
+CameraBatch with_light(CameraBatch batch, const PictureTask& picture, const ReceiverPathSettings& paths) {
     batch.max_depth = picture.max_depth;
     batch.min_weight = min_receiver_weight(picture.settings);
-    batch.light_samples = per_sample(picture.budget.light_samples_per_pixel, picture.settings);
+    batch.light_samples = per_sample(picture.budget.direct_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
     batch.sky_rays = paths.shares_sky ? paths.path_count : 0;
     return batch;
 }
 
 /// Whether pixels may get more camera paths than others.
-bool refines(const Picture& picture) {
+bool refines(const PictureTask& picture) {
     return picture.settings.refine && picture.settings.samples_per_pixel >= kMinRefinedSamples;
 }
 
-std::size_t pixels_per_band(const Picture& picture) {
+std::size_t pixels_per_band(const PictureTask& picture) {
     return static_cast<std::size_t>(picture.plan.cover.width) * picture.plan.tile_rows_per_band *
            NEARLIGHT_TILE_SIZE;
 }
@@ -80,7 +80,7 @@ void BandStages::expect(const DeviceScene& scene) {
     }
 }
 
-BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture,
+BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const PictureTask& picture,
                            const VplBuffer& vpls)
     : stages_(stages),
       scene_(scene),
@@ -146,7 +146,7 @@ std::optional<VplSelection> BandRenderer::select_vpls(std::size_t packets, const
 }
 
 /// Gathers the light of VPLs for a batch's receivers. Returns false if cancelled.
-bool BandRenderer::gather_vpls(const CameraBand& batch, const GatherProgress& progress) {
+bool BandRenderer::gather_vpls(const CameraBatch& batch, const GatherProgress& progress) {
     const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
     const VplStrata strata(stages_.device, picture_.plan.strata,
@@ -209,7 +209,7 @@ void BandRenderer::trace_receivers(std::size_t packets) {
     }
 }
 
-CameraPassInput BandRenderer::camera_input(const CameraBand& batch) const {
+CameraPassInput BandRenderer::camera_input(const CameraBatch& batch) const {
     return {scene_, camera_, picture_.plan.cover.width, close_range_, batch, picture_.seed};
 }
 
@@ -218,7 +218,7 @@ CameraPassOutput BandRenderer::camera_output() {
 }
 
 /// Renders one batch: receivers, direct light, indirect light, film. Returns false if cancelled.
-bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress) {
+bool BandRenderer::add_batch(const CameraBatch& batch, uint row_count, const GatherProgress& progress) {
     const uint width = picture_.plan.cover.width;
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(camera_input(batch), camera_output());
@@ -237,7 +237,7 @@ bool BandRenderer::add_batch(const CameraBand& batch, uint row_count, const Gath
 }
 
 /// Gives pixels of the band of `batch` more camera paths where they need them. Returns false if cancelled.
-bool BandRenderer::refine(const CameraBand& batch, const WorkProgress& progress) {
+bool BandRenderer::refine(const CameraBatch& batch, const WorkProgress& progress) {
     return !refinement_ ||
            refinement_->finish(stages_.camera_pass, camera_input(with_light(batch, picture_, paths_)),
                                camera_output(), buffers_.sums, [&] { return progress(1.0); });

@@ -57,7 +57,7 @@ struct BandStages {
 
 /// What, besides the scene and the VPLs, all bands of a picture have in common. It consists of plain numbers,
 /// so that its bytes can be sent to another process of the same program.
-struct Picture {
+struct PictureTask {
     Camera camera{};
     CloseRange close_range{};
     uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
@@ -69,13 +69,14 @@ struct Picture {
     std::optional<LocalLightPlan> local{};  ///< VplSet::local
     bool shares_sky = false;                ///< whether bundles share light of the sky
 };
-static_assert(std::is_trivially_copyable_v<Picture>);
+static_assert(std::is_trivially_copyable_v<PictureTask>);
 
 class BandRenderer {
   public:
     /// Uploads the VPLs unless they are on this device; they must be on the host too if several devices make
     /// the picture. The stages must expect the scene. Keeps references to all of its arguments.
-    BandRenderer(BandStages& stages, const DeviceScene& scene, const Picture& picture, const VplBuffer& vpls);
+    BandRenderer(BandStages& stages, const DeviceScene& scene, const PictureTask& picture,
+                 const VplBuffer& vpls);
 
     /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.
     std::optional<FinishedBand> render(uint index, const WorkProgress& progress);
@@ -99,17 +100,17 @@ class BandRenderer {
 
     void trace_receivers(std::size_t packets);
     void trace_sharing_receivers(std::size_t packets);
-    [[nodiscard]] CameraPassInput camera_input(const CameraBand& batch) const;
+    [[nodiscard]] CameraPassInput camera_input(const CameraBatch& batch) const;
     CameraPassOutput camera_output();
-    bool add_batch(const CameraBand& batch, uint row_count, const GatherProgress& progress);
-    bool refine(const CameraBand& batch, const WorkProgress& progress);
-    bool gather_vpls(const CameraBand& batch, const GatherProgress& progress);
+    bool add_batch(const CameraBatch& batch, uint row_count, const GatherProgress& progress);
+    bool refine(const CameraBatch& batch, const WorkProgress& progress);
+    bool gather_vpls(const CameraBatch& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
     [[nodiscard]] const VplBuffer& vpls() const;
 
     BandStages& stages_;
     const DeviceScene& scene_;
-    const Picture& picture_;
+    const PictureTask& picture_;
     const VplBuffer& given_vpls_;
     Buffer<Camera> camera_;
     Buffer<CloseRange> close_range_;

@@ -33,7 +33,7 @@ void CameraRefinement::begin(const PixelWindow& pixels) {
     lights_.fill_zero();
 }
 
-void CameraRefinement::add(const CameraBand& batch, const Buffer<CameraVertex>& vertices) {
+void CameraRefinement::add(const CameraBatch& batch, const Buffer<CameraVertex>& vertices) {
     stages_->camera_lights.add(vertices, batch, pixels_.width, pixels_.height, first_half(sample_count_, 1),
                                lights_);
 }
@@ -49,7 +49,7 @@ bool CameraRefinement::finish(CameraPass& camera_pass, const CameraPassInput& in
         if (count == 0) {
             return true;
         }
-        const std::size_t tile_packets = std::size_t{sample_count_} * times * input.band.branch_count;
+        const std::size_t tile_packets = std::size_t{sample_count_} * times * input.batch.branch_count;
         const std::size_t max_tiles = std::max<std::size_t>(max_packets_ / tile_packets, 1);
         for (std::size_t first = 0; first < count; first += max_tiles * NEARLIGHT_PACKET_SIZE) {
             const std::size_t some = std::min(max_tiles * NEARLIGHT_PACKET_SIZE, count - first);
@@ -75,19 +75,19 @@ bool CameraRefinement::add_round(CameraPass& camera_pass, CameraPassInput input,
                                  const std::function<bool()>& goes_on) {
     const ListedPixels pixels{listed_, list};
     const uint tiles = divide_rounding_up(list.count, NEARLIGHT_PACKET_SIZE);
-    const std::size_t sample_packets = std::size_t{tiles} * input.band.branch_count;
+    const std::size_t sample_packets = std::size_t{tiles} * input.batch.branch_count;
     const auto max_samples = static_cast<uint>(std::max<std::size_t>(max_packets_ / sample_packets, 1));
     const uint before = sample_count_ * times;
     input.only = &pixels;
     input.width = tiles * NEARLIGHT_TILE_SIZE;
-    input.band = one_tile_row(input.band);
-    input.band.min_weight = 0;  // further paths look for no light of receivers, however little these weigh
+    input.batch = one_tile_row(input.batch);
+    input.batch.min_weight = 0;  // further paths look for no light of receivers, however little these weigh
     added_.fill_zero();
-    for (uint done = 0; done < before; done += input.band.sample_count) {
-        input.band.first_sample = before + done;
-        input.band.sample_count = std::min(max_samples, before - done);
+    for (uint done = 0; done < before; done += input.batch.sample_count) {
+        input.batch.first_sample = before + done;
+        input.batch.sample_count = std::min(max_samples, before - done);
         camera_pass.run(input, output);
-        stages_->camera_lights.add(output.vertices, input.band, input.width, NEARLIGHT_TILE_SIZE,
+        stages_->camera_lights.add(output.vertices, input.batch, input.width, NEARLIGHT_TILE_SIZE,
                                    before + first_half(sample_count_, times), added_);
         device_->finish();
         if (!goes_on()) {

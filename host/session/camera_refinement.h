@@ -27,10 +27,10 @@ class CameraRefinement {
     CameraRefinement(Device& device, RefinementStages& stages, std::size_t max_pixels,
                      std::size_t max_packets, uint sample_count);
 
-    /// Starts a band of width × row_count pixels, whose first one is (x, y) of the picture.
+    /// Starts a band, which has these pixels of the picture.
     void begin(const PixelWindow& pixels);
     /// Adds what the camera pass of a batch wrote. Must come before anything else changes the vertices.
-    void add(const CameraBand& batch, const Buffer<CameraVertex>& vertices);
+    void add(const CameraBatch& batch, const Buffer<CameraVertex>& vertices);
     /// Launches the camera pass for the pixels that get more samples, and changes the band's sums of the
     /// film. `input` is that of one of the band's batches, and `output` has room for `max_packets`. Asks
     /// `goes_on` after every launch of the camera pass; returns false if that said no.

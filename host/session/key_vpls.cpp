@@ -15,7 +15,7 @@ constexpr std::size_t kMaxKeptVpls = std::size_t{1} << 22u;
 JoinedVpls join_on_host(std::span<const VplPart> parts) {
     JoinedVpls all;
     bool have_budgets = true;
-    RayBudget budget{.clamp_radius = 0.0f, .light_samples_per_pixel = 0};
+    RayBudget budget{.clamp_radius = 0.0f, .direct_samples_per_pixel = 0};
     for (const auto& [part, weight] : parts) {
         std::vector<Vpl> vpls = part->vpls.download();
         for (Vpl& vpl : vpls) {
@@ -24,7 +24,6 @@ JoinedVpls join_on_host(std::span<const VplPart> parts) {
         all.vpls.insert(all.vpls.end(), vpls.begin(), vpls.end());
         all.set.close_count += part->close_count;
         all.set.distant_count += part->distant_count;
-        all.set.close_triangles += part->close_triangles;
         all.set.sparse_count += part->sparse_count;
         all.set.candidate_count += part->candidate_count;
         all.set.asked_count = std::max(all.set.asked_count, part->asked_count);
@@ -32,8 +31,8 @@ JoinedVpls join_on_host(std::span<const VplPart> parts) {
         have_budgets = have_budgets && part->ray_budget.has_value();
         const RayBudget own = part->ray_budget.value_or(RayBudget{});
         budget.clamp_radius += weight * own.clamp_radius;
-        budget.light_samples_per_pixel =
-            std::max(budget.light_samples_per_pixel, own.light_samples_per_pixel);
+        budget.direct_samples_per_pixel =
+            std::max(budget.direct_samples_per_pixel, own.direct_samples_per_pixel);
         budget.shared_limit = std::min(budget.shared_limit, own.shared_limit);
     }
     if (have_budgets && !parts.empty()) {

@@ -29,7 +29,7 @@ struct LightProbe {
     RayQuery ray{};
     std::size_t share = 0;
     Vec3 irradiance{0, 0, 0};
-    Vec3 clamped{0, 0, 0};
+    Vec3 taken_by_clamp{0, 0, 0};
 };
 
 nearlight::Vec3 public_vec(Vec3 v) {
@@ -81,7 +81,7 @@ class ShareMaker {
         probes_.push_back({.ray = {start_, 0.0f, way, kRayEnd},
                            .share = share,
                            .irradiance = intensity / clamped_square,
-                           .clamped = intensity * (1.0f / square - 1.0f / clamped_square)});
+                           .taken_by_clamp = intensity * (1.0f / square - 1.0f / clamped_square)});
     }
 
     void add_emitters() {
@@ -298,7 +298,7 @@ std::vector<LightShare> light_shares(Device& device, const DeviceScene& on_devic
         if (is_occluded[i] == 0) {
             LightShare& share = maker.shares()[maker.probes()[i].share];
             add_to(share.irradiance, maker.probes()[i].irradiance);
-            add_to(share.clamped, maker.probes()[i].clamped);
+            add_to(share.taken_by_clamp, maker.probes()[i].taken_by_clamp);
         }
     }
     return std::move(maker.shares());

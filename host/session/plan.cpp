@@ -69,10 +69,10 @@ std::size_t round_down_to_bundles(std::size_t rows, uint bundle_rows) {
 
 }  // namespace
 
-std::vector<CameraBand> RenderPlan::batches(uint index) const {
+std::vector<CameraBatch> RenderPlan::batches(uint index) const {
     const uint first_row = index == 0 ? 0 : tile_rows_in_first + (index - 1) * tile_rows_per_band;
     const uint row_count = index == 0 ? tile_rows_in_first : tile_rows_per_band;
-    std::vector<CameraBand> result;
+    std::vector<CameraBatch> result;
     for (uint sample = 0; sample < samples_per_pixel; sample += samples_per_batch) {
         result.push_back({.first_tile_column = cover.x / NEARLIGHT_TILE_SIZE,
                           .first_tile_row = cover.y / NEARLIGHT_TILE_SIZE + first_row,
@@ -89,7 +89,7 @@ std::vector<CameraBand> RenderPlan::batches(uint index) const {
     return result;
 }
 
-std::vector<uint> RenderPlan::strata_of_bundles(const CameraBand& batch, uint seed) const {
+std::vector<uint> RenderPlan::strata_of_bundles(const CameraBatch& batch, uint seed) const {
     const uint first = Pcg32(seed, kStrataStream).next() % strata;
     const uint own_strata = strata_of_pixel(strata, interleave);
     const uint across = interleave > 1 ? tile_columns / bundle_columns : 1;

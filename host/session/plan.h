@@ -37,12 +37,12 @@ struct RenderPlan {
         return std::min(tile_row_count, 1u) + divide_rounding_up(others, tile_rows_per_band);
     }
     /// The batches of band `index`, in the order to render them.
-    [[nodiscard]] std::vector<CameraBand> batches(uint index) const;
+    [[nodiscard]] std::vector<CameraBatch> batches(uint index) const;
     /// The strata of the first bundles of a batch, which repeat after these (VplStrata). A pixel's samples
     /// take one stratum after another, in runs of equal length if the number of samples allows it; `seed`
     /// decides the first of them. In an interleaved picture, each pixel of a square of interleave x
     /// interleave has strata of its own if there are enough.
-    [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBand& batch, uint seed) const;
+    [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBatch& batch, uint seed) const;
     /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets() const;
 };

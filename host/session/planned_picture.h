@@ -15,7 +15,7 @@ namespace nearlight::core {
 
 /// A picture with its plan. If there are remote devices, they know it.
 struct PlannedPicture {
-    Picture picture;
+    PictureTask picture;
     PixelWindow window{};                  ///< the part that is wanted
     std::optional<PictureNumber> shown{};  ///< to remote devices
     /// The bands, from the first one on, that remote devices were told to make before the picture's turn: the
@@ -24,7 +24,7 @@ struct PlannedPicture {
 };
 
 /// Two pictures that follow one another.
-struct PictureOrder {
+struct PictureSequence {
     std::shared_ptr<PlannedPicture> present{};  ///< null: it is planned now
     /// Makes and plans the next picture while remote devices make the present one. When they have no band
     /// left, they go on with the next. Null: there is none yet.

@@ -205,7 +205,7 @@ Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
 
 void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
     say_debug("clamp radius " + std::to_string(candidate.budget.clamp_radius) + ": " +
-              std::to_string(candidate.budget.light_samples_per_pixel) + " light samples, weighted error " +
+              std::to_string(candidate.budget.direct_samples_per_pixel) + " light samples, weighted error " +
               std::to_string(candidate.error) + ", by VPLs " + std::to_string(mean.of_vpls) +
               " and by rays " + std::to_string(mean.of_ray / rays));
 }

@@ -6,7 +6,7 @@
 
 namespace nearlight::core {
 
-/// CameraBand::min_weight. Reflections that weigh less than this get no receiver if rays can bring their
+/// CameraBatch::min_weight. Reflections that weigh less than this get no receiver if rays can bring their
 /// light. A receiver asks all VPLs, and reflections lie scattered, so that theirs cost most; the noise of a
 /// traced path weighs as little as the reflection does.
 inline float min_receiver_weight(const GatherSettings& settings) {

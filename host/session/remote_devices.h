@@ -27,7 +27,7 @@ struct RemoteDevice {
 struct RemoteDevices {
     std::vector<RemoteDevice> devices;
     /// Gives all of them a picture and its VPLs, which is not waited for.
-    std::function<PictureNumber(const Picture&, std::span<const Vpl>)> show;
+    std::function<PictureNumber(const PictureTask&, std::span<const Vpl>)> show;
     /// Has a device make a band, which is not waited for. It makes its bands in the order of the calls.
     std::function<void(PictureNumber, std::size_t device, uint band)> order;
     /// Waits for a band, and orders it before unless it has been. Throws Error if the device has failed.

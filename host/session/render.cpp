@@ -34,9 +34,7 @@ void render_once(Session& session, const RenderSettings& settings, const RenderH
                  RenderReport& report) {
     const Prepared pass = prepare(session, settings, hooks.vpls, report);
     hooks.start(report, pass.view, pass.vpls);
-    gather(
-        session, pass, hooks.rows, [&](double fraction) { return hooks.progress(kGathering, fraction); },
-        report);
+    gather(session, pass, hooks.rows, hooks.progress, report);
 }
 
 }  // namespace

@@ -16,9 +16,6 @@
 
 namespace nearlight::core {
 
-/// Takes the name of the stage ("gathering") and how far the picture is, from 0 to 1. Returns false to stop.
-using RenderProgress = std::function<bool(const std::string& stage, double fraction)>;
-
 struct RenderSeconds {
     double build_bvh = 0;
     double compile = 0;   ///< time in which programs were compiled or loaded; other work goes on meanwhile
@@ -87,7 +84,7 @@ using VplMaker = std::function<VplSet(const ViewSettings&, const SamplingSetting
 struct RenderHooks {
     RenderStart start = [](const RenderReport&, const View&, const VplSet&) {};
     RowSink rows = [](std::span<const float>) {};
-    RenderProgress progress = [](const std::string&, double) { return true; };
+    WorkProgress progress = [](double) { return true; };  ///< takes how far the whole picture is
     ForecastSink forecast{};
     PassWatcher watcher{};
     VplMaker vpls{};  ///< empty: Session::sample() makes them

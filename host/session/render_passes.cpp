@@ -38,7 +38,7 @@ PassChoice choice_of(const Prepared& pass, const RenderSettings& settings) {
 RenderSettings with_choice(RenderSettings settings, const PassChoice& choice) {
     settings.view.range = choice.range;
     settings.view.clamp_radius = choice.ray_budget.clamp_radius;
-    settings.gather.direct_samples_per_pixel = choice.ray_budget.light_samples_per_pixel;
+    settings.gather.direct_samples_per_pixel = choice.ray_budget.direct_samples_per_pixel;
     settings.gather.shared_limit = choice.ray_budget.shared_limit;
     return settings;
 }
@@ -196,7 +196,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     };
     const auto go_on = [&](double fraction) {
         too_long = too_long || passes.schedule.is_too_long(fraction);
-        return !too_long && hooks.progress(kGathering, passes.schedule.fraction(fraction));
+        return !too_long && hooks.progress(passes.schedule.fraction(fraction));
     };
     gather(session, pass, take_rows, go_on, report,
            preparation(session, settings, hooks.vpls, pass, number, passes));

@@ -6,9 +6,6 @@
 
 namespace nearlight::core {
 
-/// The stage whose progress a render tells.
-inline constexpr const char* kGathering = "gathering";
-
 /// The products of look and sample, which a gather needs.
 struct Prepared {
     View view;
@@ -30,7 +27,7 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
 /// Adds a pass to the report: the settings that were decided, and the number of VPLs.
 void note_pass(const Prepared& pass, RenderReport& report);
 
-/// Gathers the rows of the pass. `next` is PictureOrder::next.
+/// Gathers the rows of the pass. `next` is PictureSequence::next.
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,
             RenderReport& report, std::function<std::shared_ptr<PlannedPicture>()> next = {});
 

@@ -78,8 +78,8 @@ RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& 
     if (!settings.compensate) {
         budget.clamp_radius = view.clamp_radius;
     }
-    budget.light_samples_per_pixel =
-        settings.direct_samples_per_pixel.value_or(budget.light_samples_per_pixel);
+    budget.direct_samples_per_pixel =
+        settings.direct_samples_per_pixel.value_or(budget.direct_samples_per_pixel);
     budget.shared_limit = settings.shared_limit.value_or(budget.shared_limit);
     return budget;
 }

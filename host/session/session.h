@@ -82,22 +82,24 @@ class Session {
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
     /// the caller's thread.
     GatherOutcome gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                         const RowSink& sink, const WorkProgress& progress, const PictureOrder& order = {});
+                         const RowSink& sink, const WorkProgress& progress,
+                         const PictureSequence& order = {});
 
-    /// Plans a picture for PictureOrder::present, and shows it to remote devices.
+    /// Plans a picture for PictureSequence::present, and shows it to remote devices.
     std::shared_ptr<PlannedPicture> plan(const View& view, const VplSet& vpls, const GatherSettings& settings,
                                          uint seed);
 
     /// Has remote devices make bands from now on. One that fails is left out as the session's own are.
     void enlist(RemoteDevices remote) { remote_ = std::move(remote); }
-    /// Whether PictureOrder::next is of use. With several devices of its own the session cannot tell which of
-    /// them will lead by then.
+    /// Whether PictureSequence::next is of use. With several devices of its own the session cannot tell which
+    /// of them will lead by then.
     [[nodiscard]] bool looks_ahead() const { return !remote_.devices.empty() && pool_.size() == 1; }
     /// The session's own devices, as another session sees them.
     [[nodiscard]] std::vector<RemoteDevice> own_devices() const;
     /// Makes bands of another session's picture on device `number` of own_devices(). Each device may be used
     /// by a thread of its own. Keeps references to the picture and the VPLs.
-    [[nodiscard]] BandMaker helper(std::size_t number, const Picture& picture, const VplBuffer& vpls) const;
+    [[nodiscard]] BandMaker helper(std::size_t number, const PictureTask& picture,
+                                   const VplBuffer& vpls) const;
 
     /// The irradiance (W/m²) at points (m), on the side of their unit normals: direct light, the light of
     /// `vpls` with the view's clamp radius, and, by short paths, the light that this radius takes away. If

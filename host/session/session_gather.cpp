@@ -25,12 +25,13 @@ uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
     return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
 }
 
-BandMaker band_maker(PoolDevice& device, const Picture& picture, const VplBuffer& vpls) {
+BandMaker band_maker(PoolDevice& device, const PictureTask& picture, const VplBuffer& vpls) {
     auto bands = std::make_shared<BandRenderer>(device.bands, device.scene, picture, vpls);
     return [bands](uint index, const WorkProgress& progress) { return bands->render(index, progress); };
 }
 
-std::vector<BandWorker> band_workers(const DevicePool& pool, const Picture& picture, const VplBuffer& vpls) {
+std::vector<BandWorker> band_workers(const DevicePool& pool, const PictureTask& picture,
+                                     const VplBuffer& vpls) {
     std::vector<BandWorker> workers;
     for (const auto& device : pool.devices()) {
         workers.push_back({.name = device->device().entry().label(), .start = [&, device = device.get()] {
@@ -52,7 +53,7 @@ void make_monochrome(std::span<float> rows) {
 }
 
 /// The work of a picture's strips, by which its progress goes, unless it is made too soon for that to matter.
-std::vector<double> work_of(DevicePool& pool, const Picture& picture, const View& view) {
+std::vector<double> work_of(DevicePool& pool, const PictureTask& picture, const View& view) {
     constexpr double kFewSamples = 1e6;
     const PixelWindow& cover = picture.plan.cover;
     if (1.0 * cover.width * cover.height * picture.plan.samples_per_pixel < kFewSamples) {
@@ -83,16 +84,16 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                                     .strata = settings.strata_or_auto(),
                                     .interleave = settings.interleave,
                                     .window = window});
-    const Picture picture{.camera = view.camera,
-                          .close_range = view.close_range,
-                          .max_depth = view.max_depth,
-                          .settings = settings,
-                          .budget = budget_of(view, vpls, settings),
-                          .seed = seed,
-                          .plan = plan,
-                          .asked_count = vpls.asked_count,
-                          .local = vpls.local,
-                          .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart};
+    const PictureTask picture{.camera = view.camera,
+                              .close_range = view.close_range,
+                              .max_depth = view.max_depth,
+                              .settings = settings,
+                              .budget = budget_of(view, vpls, settings),
+                              .seed = seed,
+                              .plan = plan,
+                              .asked_count = vpls.asked_count,
+                              .local = vpls.local,
+                              .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart};
     if (remote_.devices.empty()) {
         return std::make_shared<PlannedPicture>(PlannedPicture{.picture = picture, .window = window});
     }
@@ -105,7 +106,8 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
 }
 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
-                              const RowSink& sink, const WorkProgress& progress, const PictureOrder& order) {
+                              const RowSink& sink, const WorkProgress& progress,
+                              const PictureSequence& order) {
     const std::shared_ptr<PlannedPicture> planned =
         order.present ? order.present : plan(view, vpls, settings, seed);
     const RenderPlan& plan = planned->picture.plan;
@@ -156,7 +158,7 @@ std::vector<RemoteDevice> Session::own_devices() const {
     return result;
 }
 
-BandMaker Session::helper(std::size_t number, const Picture& picture, const VplBuffer& vpls) const {
+BandMaker Session::helper(std::size_t number, const PictureTask& picture, const VplBuffer& vpls) const {
     return band_maker(*pool_.devices()[number], picture, vpls);
 }
 

@@ -50,7 +50,7 @@ std::string header_of(const VplFile& set) {
         say("asked " + decimal(set.origin->asked_count));
         if (set.origin->ray_budget) {
             say("clamp_radius " + decimal(set.origin->ray_budget->clamp_radius));
-            say("light_samples " + decimal(set.origin->ray_budget->light_samples_per_pixel));
+            say("light_samples " + decimal(set.origin->ray_budget->direct_samples_per_pixel));
             say("shared_limit " + decimal(set.origin->ray_budget->shared_limit));
         }
     }
@@ -100,7 +100,7 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
             fail_ply(file, "the header's clamp radius must be from 0 to " + decimal(kMaxClampRadius) +
                                " and its light samples from 1 to " + decimal(kMaxLightSamples));
         }
-        origin.ray_budget = {.clamp_radius = radius, .light_samples_per_pixel = samples};
+        origin.ray_budget = {.clamp_radius = radius, .direct_samples_per_pixel = samples};
         // It is optional: without it, bundles share everything.
         if (!value_of(header, "shared_limit").empty()) {
             origin.ray_budget->shared_limit = number_of<float>(file, header, "shared_limit");

@@ -11,7 +11,7 @@ CameraLights::CameraLights(Device& device)
       rounds_(program_, "camera_lights_rounds"),
       refine_(program_, "camera_lights_refine") {}
 
-void CameraLights::add(const Buffer<CameraVertex>& vertices, const CameraBand& batch, uint width,
+void CameraLights::add(const Buffer<CameraVertex>& vertices, const CameraBatch& batch, uint width,
                        uint row_count, uint half_end, Buffer<CameraLight>& lights) {
     add_.launch_items(std::size_t{width} * row_count, vertices, width, row_count, packet_order(batch, width),
                       batch.first_sample, half_end, lights);

@@ -21,7 +21,7 @@ class CameraLights {
 
     /// Adds the light of a batch to `lights`, which holds one element for each of width × row_count pixels.
     /// The first half of the samples ends before number `half_end`.
-    void add(const Buffer<CameraVertex>& vertices, const CameraBand& batch, uint width, uint row_count,
+    void add(const Buffer<CameraVertex>& vertices, const CameraBatch& batch, uint width, uint row_count,
              uint half_end, Buffer<CameraLight>& lights);
     /// Writes how many rounds each pixel gets, 0 to 3, after all samples of the band. `sums` are those of the
     /// film. There must be at least two samples.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The G-buffer: where camera paths meet their first diffuse surface.
+// The camera pass: receivers at the ends of camera paths, and the light that these paths bring on their own.
 #pragma once
 
 #include "host/cl/kernel.h"
@@ -10,9 +10,9 @@
 
 namespace nearlight::core {
 
-/// Which tiles and samples of the picture one launch covers. As many columns of tiles as its width in pixels
-/// takes stand side by side, from the first one on.
-struct CameraBand {
+/// A batch: which tiles and samples of the picture one launch covers, and how its paths are followed. As many
+/// columns of tiles as its width in pixels takes stand side by side, from the first one on.
+struct CameraBatch {
     uint first_tile_column = 0;  ///< a multiple of bundle_columns x interleave, if that is above 1
     uint first_tile_row = 0;     ///< a multiple of bundle_rows x interleave, if that is above 1
     uint tile_row_count = 0;     ///< the last row may reach below the picture
@@ -38,11 +38,11 @@ struct CameraBand {
     float min_weight = 0.0f;
 };
 
-/// The order of the receiver packets of a band of so many pixels' width.
-PacketOrder packet_order(const CameraBand& band, uint width);
-/// The number of receiver packets in a band: tiles × samples × branches, with tiles filled up to whole
+/// The order of the receiver packets of a batch of so many pixels' width.
+PacketOrder packet_order(const CameraBatch& batch, uint width);
+/// The number of receiver packets in a batch: tiles × samples × branches, with tiles filled up to whole
 /// bundles.
-std::size_t packet_count(const CameraBand& band, uint width);
+std::size_t packet_count(const CameraBatch& batch, uint width);
 
 /// Pixels to look at, by their numbers in a part of the picture, row by row.
 struct ListedPixels {
@@ -50,12 +50,12 @@ struct ListedPixels {
     PixelList list;
 };
 
-/// The band of a launch that looks at listed pixels: the places of a single row of tiles.
-constexpr CameraBand one_tile_row(CameraBand band) {
-    band.first_tile_column = band.first_tile_row = 0;
-    band.tile_row_count = 1;
-    band.bundle_columns = band.bundle_rows = band.bundle_samples = band.interleave = 1;
-    return band;
+/// The batch of a launch that looks at listed pixels: the places of a single row of tiles.
+constexpr CameraBatch one_tile_row(CameraBatch batch) {
+    batch.first_tile_column = batch.first_tile_row = 0;
+    batch.tile_row_count = 1;
+    batch.bundle_columns = batch.bundle_rows = batch.bundle_samples = batch.interleave = 1;
+    return batch;
 }
 
 /// What the camera pass looks at. `camera` and `close_range` hold one element each.
@@ -64,13 +64,13 @@ struct CameraPassInput {
     const Buffer<Camera>& camera;
     uint width;  ///< of the columns of tiles, in pixels
     const Buffer<CloseRange>& close_range;
-    CameraBand band;
+    CameraBatch batch;
     uint seed = 0;
-    const ListedPixels* only = nullptr;  ///< the pixels that take the places of the band; null: its own
+    const ListedPixels* only = nullptr;  ///< the pixels that take the places of the batch; null: its own
 };
 
 /// What the camera pass writes: packet_count() packets and 64 vertices for each of them, in the order that
-/// kernels/shared/packet_order.h states. With band.sky_rays, `seen` gets what SharedSky::add() must know of
+/// kernels/shared/packet_order.h states. With batch.sky_rays, `seen` gets what SharedSky::add() must know of
 /// the surfaces, one entry for each vertex.
 struct CameraPassOutput {
     Buffer<ReceiverPacket>& receivers;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/compaction.h"
 
-#include "host/stages/chunks.h"
 #include "host/stages/joint_programs.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 
@@ -19,12 +19,12 @@ std::size_t Compaction::list_set(const Buffer<uint>& flags, std::size_t count, B
         return 0;
     }
     const uint n = to_kernel_count(count, "flags");
-    const Chunks chunks = split_into_chunks(*device_, count);
-    const std::size_t local_size = chunk_local_size(*device_);
-    ensure_room(chunk_counts_, *device_, chunks.count);
-    count_.launch(chunks.count, local_size, flags, chunk_counts_, n, chunks.size, chunks.count);
-    scan_.exclusive(chunk_counts_, chunk_counts_, chunks.count);
-    write_.launch(chunks.count, local_size, flags, chunk_counts_, indices, n, chunks.size, chunks.count);
+    const Runs runs = split_into_runs(*device_, count);
+    const std::size_t local_size = run_local_size(*device_);
+    ensure_room(run_counts_, *device_, runs.count);
+    count_.launch(runs.count, local_size, flags, run_counts_, n, runs.size, runs.count);
+    scan_.exclusive(run_counts_, run_counts_, runs.count);
+    write_.launch(runs.count, local_size, flags, run_counts_, indices, n, runs.size, runs.count);
     return scan_.total().download_one(0);
 }
 

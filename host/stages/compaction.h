@@ -48,7 +48,7 @@ class Compaction {
     Kernel write_;
     Kernel gather_;
     PrefixScan<uint> scan_;
-    Buffer<uint> chunk_counts_;
+    Buffer<uint> run_counts_;
 };
 
 }  // namespace nearlight::core

@@ -11,11 +11,11 @@ Film::Film(Device& device)
       film_resolve_(program_, "film_resolve") {}
 
 void Film::add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
-               const ReceivedIrradiance& irradiance, const CameraBand& band, uint width, uint row_count,
+               const ReceivedIrradiance& irradiance, const CameraBatch& batch, uint width, uint row_count,
                Buffer<float>& sums) {
     film_add_.launch_items(static_cast<std::size_t>(width) * row_count, receivers, vertices,
                            irradiance.direct, irradiance.gathered, irradiance.indirect, width, row_count,
-                           packet_order(band, width), band.first_sample, band.samples_per_pixel, sums);
+                           packet_order(batch, width), batch.first_sample, batch.samples_per_pixel, sums);
 }
 
 void Film::resolve(const Buffer<float>& sums, std::size_t pixel_count, uint samples_per_pixel,

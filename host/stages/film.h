@@ -22,7 +22,7 @@ class Film {
     /// Adds one batch of samples to `sums`, which holds NEARLIGHT_FILM_CHANNELS floats for each of width ×
     /// row_count pixels.
     void add(const Buffer<ReceiverPacket>& receivers, const Buffer<CameraVertex>& vertices,
-             const ReceivedIrradiance& irradiance, const CameraBand& band, uint width, uint row_count,
+             const ReceivedIrradiance& irradiance, const CameraBatch& batch, uint width, uint row_count,
              Buffer<float>& sums);
     /// Turns the sums of pixels into `layers`: NEARLIGHT_LAYER_CHANNELS floats per pixel, in the order of
     /// layer_channels().

@@ -51,7 +51,7 @@ struct GatherInput {
     std::size_t vpl_count = 0;
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
-    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, scene units
+    float clamp_radius = 0.0f;  ///< R of the bounded geometry term, m
     /// The strata that bundles ask about; null means the whole set. Cannot be combined with groups.
     const VplStrata* strata = nullptr;
     /// The VPLs of its stratum that each bundle asks about; null means all of them. Cannot be combined with

@@ -50,7 +50,6 @@ LightCuts::LightCuts(Device& device)
 
 CutTree LightCuts::make_tree(const Buffer<Vpl>& vpls, std::size_t vpl_count) {
     CutTree tree;
-    tree.vpl_count = vpl_count;
     tree.first_nodes.push_back(0);
     std::size_t size = vpl_count;
     do {

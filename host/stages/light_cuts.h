@@ -17,7 +17,6 @@ namespace nearlight::core {
 struct CutTree {
     Buffer<CutNode> nodes;
     std::vector<uint> first_nodes;  ///< of each level, and the number of nodes
-    std::size_t vpl_count = 0;
 
     [[nodiscard]] uint leaf_count() const { return first_nodes[1]; }
     [[nodiscard]] uint first_root() const { return first_nodes[first_nodes.size() - 2]; }
@@ -32,7 +31,7 @@ struct CutTask {
     /// The strata of the bundles. With cuts, all VPLs belong to every stratum; the number of strata divides
     /// `asked_count`, and bundles of different strata draw different VPLs.
     const VplStrata& strata;
-    float clamp_radius = 0.0f;    ///< R of the bounded geometry term, scene units
+    float clamp_radius = 0.0f;    ///< R of the bounded geometry term, m
     std::size_t asked_count = 0;  ///< VPLs that bundles of all strata ask about together
     uint seed = 0;
 };

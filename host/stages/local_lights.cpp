@@ -18,7 +18,7 @@ std::size_t slots_at_a_time(const Device& device) {
 }
 
 GatherRadius law_of(const LocalLightPlan& plan) {
-    return {.max_radius = plan.widest_radius,
+    return {.max_radius = plan.max_radius,
             .min_radius = plan.clamp_radius,
             .at_unit_light = plan.radius_at_unit_light,
             .seed = plan.seed};

@@ -13,14 +13,14 @@
 
 namespace nearlight::core {
 
-/// What local lights are to supply, and how. A VPL at y is gathered with the radius R_g(y) = widest_radius /
+/// What local lights are to supply, and how. A VPL at y is gathered with the radius R_g(y) = max_radius /
 /// 2^level, but never below the clamp radius. The level is the first of 0 to 3 for which the radius is at
 /// most radius_at_unit_light / √E(y), where E estimates the direct light (luminance, W/m²). Local lights
 /// supply the rest, down to the clamp radius.
 struct LocalLightPlan {
-    float clamp_radius = 0.0f;   ///< m
-    float widest_radius = 0.0f;  ///< m, at least clamp_radius; local lights lie within it
-    /// Narrows the radius of well-lit VPLs, in m·√(W/m²); infinity makes every radius widest_radius.
+    float clamp_radius = 0.0f;  ///< m
+    float max_radius = 0.0f;    ///< m, at least clamp_radius; local lights lie within it
+    /// Narrows the radius of well-lit VPLs, in m·√(W/m²); infinity makes every radius max_radius.
     float radius_at_unit_light = std::numeric_limits<float>::infinity();
     uint rays_per_receiver = 1;  ///< short rays that find local lights
     uint connections = 1;        ///< from each local light to VPLs, chosen with equal probability

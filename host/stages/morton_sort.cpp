@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/morton_sort.h"
 
-#include "host/stages/chunks.h"
 #include "host/stages/joint_programs.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 namespace {
@@ -14,8 +14,8 @@ static_assert(kKeyBits / kDigitBits % 2 == 0, "an even number of passes ends in 
 static_assert(sizeof(Aabb) == 6 * sizeof(float));
 
 /// Splits pairs into runs that are long enough to be worth their 256 counters.
-Chunks split_for_sort(const Device& device, std::size_t count) {
-    return split_into_chunks(device, count, device.tunables().shortest_sort_run);
+Runs split_for_sort(const Device& device, std::size_t count) {
+    return split_into_runs(device, count, device.tunables().shortest_sort_run);
 }
 
 }  // namespace
@@ -31,13 +31,13 @@ MortonSort::MortonSort(Device& device)
 
 MortonSort::BoundsRun MortonSort::begin_bounds(std::size_t count) {
     to_kernel_count(count, "points");
-    const Chunks chunks = split_into_chunks(*device_, count);
-    ensure_room(boxes_, *device_, std::max(chunks.count, 1u));
-    return {chunks.size, chunks.count, chunk_local_size(*device_)};
+    const Runs runs = split_into_runs(*device_, count);
+    ensure_room(boxes_, *device_, std::max(runs.count, 1u));
+    return {runs.size, runs.count, run_local_size(*device_)};
 }
 
-Aabb MortonSort::finish_bounds(uint chunk_count) const {
-    std::vector<Aabb> boxes(chunk_count);
+Aabb MortonSort::finish_bounds(uint run_count) const {
+    std::vector<Aabb> boxes(run_count);
     boxes_.download(boxes);
     Aabb box;
     for (const Aabb& part : boxes) {
@@ -51,19 +51,19 @@ void MortonSort::sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t coun
         return;
     }
     const uint n = to_kernel_count(count, "keys");
-    const Chunks chunks = split_for_sort(*device_, count);
-    const std::size_t local_size = chunk_local_size(*device_);
-    const std::size_t position_count = kDigitCount * chunks.count;
+    const Runs runs = split_for_sort(*device_, count);
+    const std::size_t local_size = run_local_size(*device_);
+    const std::size_t position_count = kDigitCount * runs.count;
     ensure_room(other_keys_, *device_, count);
     ensure_room(other_values_, *device_, count);
     ensure_room(positions_, *device_, position_count);
 
     const auto pass = [&](const Buffer<uint>& from_keys, const Buffer<uint>& from_values,
                           Buffer<uint>& to_keys, Buffer<uint>& to_values, uint shift) {
-        count_.launch(chunks.count, local_size, from_keys, positions_, shift, n, chunks.size, chunks.count);
+        count_.launch(runs.count, local_size, from_keys, positions_, shift, n, runs.size, runs.count);
         scan_.exclusive(positions_, positions_, position_count);
-        scatter_.launch(chunks.count, local_size, from_keys, from_values, positions_, to_keys, to_values,
-                        shift, n, chunks.size, chunks.count);
+        scatter_.launch(runs.count, local_size, from_keys, from_values, positions_, to_keys, to_values, shift,
+                        n, runs.size, runs.count);
     };
     for (uint shift = 0; shift < kKeyBits; shift += 2 * kDigitBits) {
         pass(keys, values, other_keys_, other_values_, shift);

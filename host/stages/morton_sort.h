@@ -31,9 +31,9 @@ class MortonSort {
     template <typename T>
     Aabb bounds(const Buffer<T>& elements, std::size_t count) {
         const BoundsRun run = begin_bounds(count);
-        bounds_.launch(run.chunk_count, run.local_size, elements, boxes_, stride_of<T>(),
-                       static_cast<uint>(count), run.chunk_size, run.chunk_count);
-        return finish_bounds(run.chunk_count);
+        bounds_.launch(run.run_count, run.local_size, elements, boxes_, stride_of<T>(),
+                       static_cast<uint>(count), run.run_size, run.run_count);
+        return finish_bounds(run.run_count);
     }
     /// Writes the 30-bit Morton codes of the positions, and values[i] = i. The cells are cubes, and 1024 of
     /// them span the longest side of the box. A position outside the box gets the code of the nearest cell.
@@ -50,7 +50,7 @@ class MortonSort {
 
   private:
     struct BoundsRun {
-        uint chunk_size, chunk_count;
+        uint run_size, run_count;
         std::size_t local_size;
     };
     template <typename T>
@@ -59,7 +59,7 @@ class MortonSort {
         return static_cast<uint>(sizeof(T) / sizeof(float));
     }
     BoundsRun begin_bounds(std::size_t count);
-    Aabb finish_bounds(uint chunk_count) const;
+    Aabb finish_bounds(uint run_count) const;
 
     Device* device_;
     Program program_;

@@ -102,7 +102,7 @@ const Importons& PilotView::importons_of(ContributionNorm norm) const {
     switch (norm) {
         case ContributionNorm::mean:
             return importons;
-        case ContributionNorm::rough_mean_square:
+        case ContributionNorm::error_of_draw:
             return few_squared_importons;
     }
     return importons;
@@ -117,17 +117,18 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     SceneCamera unfiltered = camera;
     unfiltered.filter = {};
     const Camera small = make_camera(unfiltered, width, height);
-    const CameraBand band{.tile_row_count = tiles_across(small.height), .samples_per_pixel = 2};
+    const CameraBatch batch{.tile_row_count = tiles_across(small.height), .samples_per_pixel = 2};
 
     PilotView view;
     view.device = &device;
-    view.packet_count = static_cast<uint>(packet_count(band, small.width));
+    view.packet_count = static_cast<uint>(packet_count(batch, small.width));
     view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
     Buffer<CameraVertex> vertices(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
     const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
     const CloseRange nothing{};
     const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run({scene, camera_buffer, small.width, close_range, band, seed}, {view.receivers, vertices});
+    camera_pass.run({scene, camera_buffer, small.width, close_range, batch, seed},
+                    {view.receivers, vertices});
     const std::vector<ReceiverPacket> packets = view.receivers.download();
     view.distances = receiver_distances(packets, small.origin);
     set_importons(device, view, make_importons(packets, vertices.download()));

@@ -12,11 +12,12 @@ namespace nearlight::core {
 
 /// The measure of what a VPL brings to importons. kernels/vpl_contribution.cl has the formulas.
 enum class ContributionNorm {
-    mean,               ///< the luminance that a VPL brings
-    rough_mean_square,  ///< what a VPL drawn by chance would add to the picture's error, by few importons
+    mean,           ///< the luminance that a VPL brings
+    error_of_draw,  ///< what a VPL drawn by chance would add to the picture's error (root of the sum of
+                    ///< squares), by few importons
 };
 
-/// Importons on a device. Those for ContributionNorm::rough_mean_square have squared responses and are marked
+/// Importons on a device. Those for ContributionNorm::error_of_draw have squared responses and are marked
 /// for squared geometry terms.
 struct Importons {
     Buffer<Importon> importons;
@@ -37,9 +38,10 @@ struct PilotView {
     Buffer<ReceiverPacket> receivers;
     uint packet_count = 0;
     Importons importons;
-    Importons few_squared_importons;  ///< few of the importons, evenly spread, for rough mean squares
-    ImportonGroups importon_groups;   ///< some of the importons, by parts of the picture
-    std::vector<float> distances;     ///< between camera and receivers, ascending, m; empty: nothing in view
+    Importons
+        few_squared_importons;  ///< few of the importons, evenly spread, for ContributionNorm::error_of_draw
+    ImportonGroups importon_groups;  ///< some of the importons, by parts of the picture
+    std::vector<float> distances;    ///< between camera and receivers, ascending, m; empty: nothing in view
 
     [[nodiscard]] bool is_on(const Device& other) const { return device == &other; }
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;

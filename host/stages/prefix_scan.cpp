@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "host/stages/chunks.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 namespace {
@@ -21,7 +21,7 @@ PrefixScan<T>::PrefixScan(Device& device)
     : device_(&device),
       program_(device, "prefix_scan.cl", {{"SCAN_TYPE", kernel_type<T>()}}),
       reduce_(program_, "scan_reduce"),
-      scan_chunks_(program_, "scan_chunks"),
+      scan_runs_(program_, "scan_runs"),
       total_(device, 1) {
     total_.fill_zero();
 }
@@ -38,26 +38,26 @@ void PrefixScan<T>::scan(const Buffer<T>& input, Buffer<T>& output, std::size_t 
 template <typename T>
 void PrefixScan<T>::scan_level(const Buffer<T>& input, Buffer<T>& output, uint count, bool inclusive,
                                std::size_t level) {
-    const Chunks chunks = split_into_chunks(*device_, count);
-    const std::size_t local_size = chunk_local_size(*device_);
+    const Runs runs = split_into_runs(*device_, count);
+    const std::size_t local_size = run_local_size(*device_);
     const auto scan_from = [&](const Buffer<T>& offsets) {
-        scan_chunks_.launch(chunks.count, local_size, input, offsets, output, total_, count, chunks.size,
-                            chunks.count, uint{inclusive});
+        scan_runs_.launch(runs.count, local_size, input, offsets, output, total_, count, runs.size,
+                          runs.count, uint{inclusive});
     };
-    if (chunks.count == 1) {
+    if (runs.count == 1) {
         scan_from(total_);  // a single run reads no offsets
         return;
     }
-    if (chunk_sums_.size() <= level) {
-        chunk_sums_.resize(level + 1);
+    if (run_sums_.size() <= level) {
+        run_sums_.resize(level + 1);
     }
     // The sums are moved out of the vector because the deeper level may make it grow.
-    Buffer<T> sums = std::move(chunk_sums_[level]);
-    ensure_room(sums, *device_, chunks.count);
-    reduce_.launch(chunks.count, local_size, input, sums, count, chunks.size, chunks.count);
-    scan_level(sums, sums, chunks.count, false, level + 1);
+    Buffer<T> sums = std::move(run_sums_[level]);
+    ensure_room(sums, *device_, runs.count);
+    reduce_.launch(runs.count, local_size, input, sums, count, runs.size, runs.count);
+    scan_level(sums, sums, runs.count, false, level + 1);
     scan_from(sums);
-    chunk_sums_[level] = std::move(sums);
+    run_sums_[level] = std::move(sums);
 }
 
 template class PrefixScan<uint>;

@@ -37,9 +37,9 @@ class PrefixScan {
     Device* device_;
     Program program_;
     Kernel reduce_;
-    Kernel scan_chunks_;
+    Kernel scan_runs_;
     Buffer<T> total_;
-    std::vector<Buffer<T>> chunk_sums_;  ///< one buffer per level
+    std::vector<Buffer<T>> run_sums_;  ///< one buffer per level
 };
 
 extern template class PrefixScan<uint>;

@@ -15,7 +15,7 @@ struct RouletteTask {
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
     const VplStrata* strata = nullptr;  ///< those of the gather; null means the whole set
-    float clamp_radius = 0.0f;          ///< R of the bounded geometry term, scene units
+    float clamp_radius = 0.0f;          ///< R of the bounded geometry term, m
     /// A bundle always asks about a VPL that could bring its receivers at least `threshold` times the mean
     /// over all VPLs of its stratum, and about other VPLs with a probability in proportion to what they could
     /// bring. That is the root mean square of unoccluded light. Must be above 0.

@@ -12,7 +12,7 @@ namespace nearlight::core {
 struct SeenSurfaces {
     const Buffer<SeenSurface>& surfaces;
     Buffer<CameraVertex>& vertices;
-    uint rays = 1;  ///< that each of them sends in search of lights (CameraBand::light_rays)
+    uint rays = 1;  ///< that each of them sends in search of lights (CameraBatch::light_rays)
 };
 
 class SharedSky {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/triangle_classifier.h"
 
-#include "host/stages/chunks.h"
 #include "host/stages/joint_programs.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 

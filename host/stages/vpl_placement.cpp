@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/stages/chunks.h"
 #include "host/stages/joint_programs.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 

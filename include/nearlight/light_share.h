@@ -22,7 +22,7 @@ struct LightShare {
     Vec3 position{};
     Vec3 irradiance{};  ///< in W/m²; of a VPL, what it brings under the clamp radius
     /// In W/m²: what the clamp radius takes away from a VPL. Rays of receivers bring it back, if they may.
-    Vec3 clamped{};
+    Vec3 taken_by_clamp{};
 };
 
 }  // namespace nearlight

@@ -144,7 +144,10 @@ struct GatherSettings {
     /// eight times the camera paths of others, for the light that these paths bring on their own. Pixels with
     /// fewer than four samples do not.
     bool refine = true;
-    bool indirect_only = false;  ///< the layer of direct light has emission only
+    /// Leaves out the direct light of receivers. The layer of direct light keeps what camera paths bring on
+    /// their own: lights that are seen, mirrored or reflected in highlights, and reflections of little
+    /// weight.
+    bool indirect_only = false;
     /// Bundles of receivers share the light that their rays find. What one path brings from a lamp that it
     /// met by chance stays with its receiver where it is more than this radiance (W/m²/sr): it makes a bright
     /// dot, not a bright tile. Empty: as a pilot chooses.

@@ -13,14 +13,14 @@
 /// A path from the camera, at one of its surfaces.
 typedef struct CameraPath {
     PathRay ray;
-    float3 emitted;
-    uint key;        // of the path's own random numbers
-    uint pixel_key;  // of the sequences that all samples of the pixel share
-    uint sample;     // of the pixel
-    uint sequence;   // key of the random numbers that receivers of the pixel share, of one branch
-    uint undivided;  // 1: there are two branches, and no surface with two ways on was met yet
-    uint mode;       // BSDF_CAMERA until a surface scatters the path, then BSDF_RADIANCE
-    float t_min;     // where the first surface may lie on the ray
+    float3 camera_light;  // CameraVertex.camera_light so far
+    uint key;             // of the path's own random numbers
+    uint pixel_key;       // of the sequences that all samples of the pixel share
+    uint sample;          // of the pixel
+    uint sequence;        // key of the random numbers that receivers of the pixel share, of one branch
+    uint undivided;       // 1: there are two branches, and no surface with two ways on was met yet
+    uint mode;            // BSDF_CAMERA until a surface scatters the path, then BSDF_RADIANCE
+    float t_min;          // where the first surface may lie on the ray
     float t_max;
     float filter_weight;
     uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
@@ -38,7 +38,7 @@ static inline bool take_second_way(CameraPath* path, uint branch, float p, float
     if (path->undivided) {
         path->undivided = 0;
         if (branch == 1) {
-            path->emitted = (float3)(0.0f);  // what was seen so far is counted by branch 0
+            path->camera_light = (float3)(0.0f);  // what was seen so far is counted by branch 0
         }
         return branch == 1;
     }
@@ -113,10 +113,10 @@ static inline uint follow_specular(const SceneView* scene, CameraPath* path, con
     if (quota.samples == 0) {
         return WAY_END;
     }
-    path->emitted +=
+    path->camera_light +=
         path->ray.throughput * reflected_light(scene, hit, surface, BSDF_S, &quota, numbers->light_key);
-    path->emitted += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
-                                      sequence_index(path) * (quota.rays - 1), path->sequence);
+    path->camera_light += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
+                                           sequence_index(path) * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
     const float reflected = reflection_probability(surface, numbers->direction);
     if (path->undivided && reflected > 0.0f && reflected < 1.0f) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a path that starts at the camera or at a receiver: the light of lamps that a surface reflects,
-// by light samples, and the ray that goes on from it and may meet lamps too. Multiple importance sampling by
-// the balance heuristic combines the two [Veach & Guibas, Optimally Combining Sampling Techniques for Monte
-// Carlo Rendering, 1995].
+// The steps of a path that starts at the camera or at a receiver: the light of emitters that a surface
+// reflects, by light samples, and the ray that goes on from it and may meet emitters too. Multiple importance
+// sampling by the balance heuristic combines the two [Veach & Guibas, Optimally Combining Sampling Techniques
+// for Monte Carlo Rendering, 1995].
 #ifndef NEARLIGHT_LIB_PATH_RAY
 #define NEARLIGHT_LIB_PATH_RAY
 

@@ -37,7 +37,7 @@ typedef struct PathLimits {
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
     uint path_count;     // rays that each receiver sends
-    uint bundle_count;   // rays of the bundle that count as the receiver's own where they find the sky
+    uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
     float shared_limit;  // RayShare.shared_limit
 } PathLimits;
@@ -137,7 +137,7 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
                                       const PathLimits* limits, float2 u, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
     PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
-    ray.bundle_ratio = (float)limits->bundle_count / (float)limits->light_samples;
+    ray.bundle_ratio = (float)limits->bundle_rays / (float)limits->light_samples;
     if (is_black(ray.throughput)) {
         return light;
     }
@@ -203,7 +203,7 @@ OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const Recei
     light.indirect *= scale;
     if (limits->max_edges > 0) {
         light.direct +=
-            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->bundle_count,
+            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->bundle_rays,
                                  limits->max_edges - 1, limits->sample * limits->light_samples, keys.x);
     }
     return light;

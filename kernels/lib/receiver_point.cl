@@ -81,9 +81,9 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
 /// sends `path_count` rays too. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. Without rays, light
 /// samples bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays
-/// of the bundle as `bundle_count` look for the sky too.
+/// of the bundle as `bundle_rays` look for the sky too.
 static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                          uint path_count, uint bundle_count, uint max_veils, uint first,
+                                          uint path_count, uint bundle_rays, uint max_veils, uint first,
                                           uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
@@ -94,7 +94,7 @@ static inline float3 sampled_direct_light(const SceneView* scene, const Receiver
         return exact;
     }
     const float path_ratio = (float)path_count / (float)sample_count;
-    const float bundle_ratio = (float)bundle_count / (float)sample_count;
+    const float bundle_ratio = (float)bundle_rays / (float)sample_count;
     const LightReceiver receiver = even_receiver(at->x, at->n);
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < sample_count; ++s) {

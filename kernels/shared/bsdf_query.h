@@ -16,7 +16,7 @@ typedef struct BsdfQuery {
     Vec3 wi;                 // unit vector along which the BSDF is evaluated, in world space
     uint parts;              // BSDF_D, BSDF_S or both, of kernels/lib/bsdf/bsdf.cl
     float weight1, weight2;  // of the triangle's vertices v1 and v2
-    uint mode;               // BSDF_RADIANCE or BSDF_FLUX, of kernels/lib/bsdf/surface.cl
+    uint mode;               // BSDF_CAMERA, BSDF_RADIANCE or BSDF_FLUX, of kernels/lib/bsdf/surface.cl
     float choice;            // the random number of masks and blends
     float u;                 // the random numbers of the sample
     float v[2];

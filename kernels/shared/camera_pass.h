@@ -40,7 +40,7 @@ typedef struct CameraPassParams {
     uint pad0;
 } CameraPassParams;
 
-/// The light that the camera paths of a pixel bring on their own: sums of CameraVertex.emitted times the
+/// The light that the camera paths of a pixel bring on their own: sums of CameraVertex.camera_light times the
 /// filter's weights over the first half of the pixel's samples, and over the second half.
 typedef struct CameraLight {
     Vec3 first;

@@ -252,7 +252,9 @@ typedef struct CameraVertex {
     float depth;      // distance from the camera to the first surface seen, m; 0: no surface
     Vec3 albedo;      // Lambertian albedo of the first diffuse surface
     uint flags;
-    Vec3 emitted;         // radiance of lights and environment seen on the way
+    // Radiance that the camera path brings on its own: of lights and the environment that it meets, and of
+    // what surfaces on the way reflect of them by S.
+    Vec3 camera_light;
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
     // Radiance of a receiver of little weight, which is absent.
     Vec3 traced_direct;

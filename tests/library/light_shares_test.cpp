@@ -68,7 +68,7 @@ TEST_P(LightShares, AddUpToTheIrradiance) {
         for (const LightShare& share : session.light_shares(kPoints[i], kUp, vpls)) {
             (share.kind == LightKind::vpl ? vpl_light : emitters) += sum_of(share.irradiance);
             vpl_count += share.kind == LightKind::vpl ? 1 : 0;
-            EXPECT_GE(share.clamped.x, 0.0f);
+            EXPECT_GE(share.taken_by_clamp.x, 0.0f);
             if (share.kind != LightKind::vpl) {
                 EXPECT_EQ(share.kind, GetParam().second);
             }

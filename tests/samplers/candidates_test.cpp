@@ -63,7 +63,7 @@ TEST_F(CandidatesTest, HiddenCandidatesCountByWhatTheyWouldBring) {
         SamplingBench bench(device, divided_room());
         const SamplingTask task = bench.task(SamplerKind::close_range, kWanted, 1);
         for (const std::vector<float>& weights :
-             {choice_weights(bench.stages(), task, vpls, ContributionNorm::rough_mean_square),
+             {choice_weights(bench.stages(), task, vpls, ContributionNorm::error_of_draw),
               judge(bench.stages(), task, vpls).weights}) {
             ASSERT_EQ(weights.size(), vpls.size());
             EXPECT_GT(weights[0], weights[1]);

@@ -131,24 +131,24 @@ TEST_F(CameraRefinementTest, RoundsAskWhetherToGoOn) {
         const CloseRange region = make_close_range(camera, 1.0f);
         const Buffer<Camera> cameras(device, std::span(&camera, 1));
         const Buffer<CloseRange> regions(device, std::span(&region, 1));
-        const CameraBand band{.tile_row_count = tiles_across(camera.height),
-                              .sample_count = 8,
-                              .samples_per_pixel = 8,
-                              .branch_count = 2};
-        const std::size_t packets = packet_count(band, camera.width);
+        const CameraBatch batch{.tile_row_count = tiles_across(camera.height),
+                                .sample_count = 8,
+                                .samples_per_pixel = 8,
+                                .branch_count = 2};
+        const std::size_t packets = packet_count(batch, camera.width);
         const std::size_t pixels = std::size_t{camera.width} * camera.height;
         Buffer<ReceiverPacket> receivers(device, packets);
         Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
         Buffer<float> sums(device, std::vector<float>(pixels * NEARLIGHT_FILM_CHANNELS, 1.0f));
-        const CameraPassInput input{on_device.buffers, cameras, camera.width, regions, band, 1};
+        const CameraPassInput input{on_device.buffers, cameras, camera.width, regions, batch, 1};
         CameraPass camera_pass(device);
         RefinementStages stages(device);
-        CameraRefinement refinement(device, stages, pixels, packets, band.sample_count);
+        CameraRefinement refinement(device, stages, pixels, packets, batch.sample_count);
         const auto finishes_after = [&](int max_launches) {
             int launches = 0;
             refinement.begin({0, 0, camera.width, camera.height});
             camera_pass.run(input, {receivers, vertices});
-            refinement.add(band, vertices);
+            refinement.add(batch, vertices);
             const bool finished = refinement.finish(camera_pass, input, {receivers, vertices}, sums,
                                                     [&] { return ++launches < max_launches; });
             return std::pair(finished, launches);

@@ -79,13 +79,13 @@ TEST_F(KeyVplsTest, NoVplsAreNone) {
 TEST_F(KeyVplsTest, RaysBeginWhereTheyDoOnAverage) {
     VplSet a;
     VplSet b;
-    a.ray_budget = RayBudget{.clamp_radius = 1.0f, .light_samples_per_pixel = 16, .shared_limit = 9.0f};
-    b.ray_budget = RayBudget{.clamp_radius = 2.0f, .light_samples_per_pixel = 64, .shared_limit = 8.0f};
+    a.ray_budget = RayBudget{.clamp_radius = 1.0f, .direct_samples_per_pixel = 16, .shared_limit = 9.0f};
+    b.ray_budget = RayBudget{.clamp_radius = 2.0f, .direct_samples_per_pixel = 64, .shared_limit = 8.0f};
     const std::vector<VplPart> parts{{&a, 0.75f}, {&b, 0.25f}};
     const JoinedVpls both = join_on_host(parts);
     ASSERT_TRUE(both.set.ray_budget.has_value());
     EXPECT_FLOAT_EQ(both.set.ray_budget->clamp_radius, 1.25f);
-    EXPECT_EQ(both.set.ray_budget->light_samples_per_pixel, 64u);
+    EXPECT_EQ(both.set.ray_budget->direct_samples_per_pixel, 64u);
     EXPECT_EQ(both.set.ray_budget->shared_limit, 8.0f);
     b.ray_budget.reset();
     EXPECT_FALSE(join_on_host(parts).set.ray_budget.has_value());

@@ -97,7 +97,7 @@ TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
                     settings.view.range = averaged.report.range;
                     const RayBudget& budget = averaged.report.ray_budget;
                     settings.view.clamp_radius = budget.clamp_radius;
-                    settings.gather.direct_samples_per_pixel = budget.light_samples_per_pixel;
+                    settings.gather.direct_samples_per_pixel = budget.direct_samples_per_pixel;
                     settings.gather.shared_limit = budget.shared_limit;
                 }
                 const test::Rendering single = test::render_image(session, settings);
@@ -144,8 +144,7 @@ TEST_F(Passes, AnInterruptedOneLeavesTheMeanOfThoseBefore) {
         Session session(device, scene);
         const RenderSettings settings = with_passes(test::few_vpls(), 4);
         const test::Rendering stopped = test::render_image(
-            session, settings,
-            {.progress = [](const std::string&, double fraction) { return fraction < 0.25; }});
+            session, settings, {.progress = [](double fraction) { return fraction < 0.25; }});
         EXPECT_TRUE(stopped.report.interrupted);
         // When the second pass begins, unless this thread was late. One band is the whole picture here, and
         // the last pass has not finished it.

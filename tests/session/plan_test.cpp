@@ -24,7 +24,7 @@ class PlanTest : public test::DeviceTest {};
 void expect_all_once(const RenderPlan& plan) {
     std::vector<uint> times(std::size_t{plan.tile_row_count} * plan.samples_per_pixel);
     for (uint band = 0; band < plan.band_count(); ++band) {
-        for (const CameraBand& batch : plan.batches(band)) {
+        for (const CameraBatch& batch : plan.batches(band)) {
             for (uint row = 0; row < batch.tile_row_count; ++row) {
                 for (uint sample = 0; sample < batch.sample_count; ++sample) {
                     ++times.at(std::size_t{batch.first_tile_row + row} * plan.samples_per_pixel +
@@ -116,7 +116,7 @@ TEST_F(StripWorkTest, SkyCostsNothing) {
 /// How often each stratum is asked about by the samples of a pixel, over all batches of the first band.
 std::vector<uint> times_asked(const RenderPlan& plan, uint seed) {
     std::vector<uint> times(plan.strata);
-    for (const CameraBand& batch : plan.batches(0)) {
+    for (const CameraBatch& batch : plan.batches(0)) {
         for (const uint stratum : plan.strata_of_bundles(batch, seed)) {
             times.at(stratum) += plan.bundle_samples;
         }
@@ -149,7 +149,7 @@ TEST_F(PlanTest, PixelsOfASquareShareStrata) {
                                                                      .samples_per_pixel = samples,
                                                                      .strata = strata,
                                                                      .interleave = 4});
-            const CameraBand batch = plan.batches(0).front();
+            const CameraBatch batch = plan.batches(0).front();
             ASSERT_EQ(batch.sample_count, samples);
             const std::vector<uint> asked = plan.strata_of_bundles(batch, 1);
             std::vector<uint> times(strata);

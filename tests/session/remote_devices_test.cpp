@@ -198,8 +198,8 @@ TEST_F(RemoteDevicesTest, StopWhenTheCallerWantsNoMore) {
     auto& [own, other, helper, alone, helped] = sessions;
     RenderSettings settings = test::few_vpls();
     settings.passes = 4;
-    const test::Rendering picture = test::render_image(
-        helped, settings, {.progress = [](const std::string&, double fraction) { return fraction < 0.4; }});
+    const test::Rendering picture =
+        test::render_image(helped, settings, {.progress = [](double fraction) { return fraction < 0.4; }});
     EXPECT_TRUE(picture.report.interrupted);
     EXPECT_EQ(helper.open_pictures(), 0u);
 }

@@ -133,7 +133,7 @@ TEST_F(Resume, AnInterruptedRenderGoesOnFromItsLastRow) {
         settings.passes = 2;
         std::optional<Checkpoint> last;
         bool is_stopped = false;
-        RenderHooks hooks{.progress = [&](const std::string&, double) { return !is_stopped; }};
+        RenderHooks hooks{.progress = [&](double) { return !is_stopped; }};
         hooks.watcher = [&](const PassesSoFar& so_far) {
             is_stopped = true;
             last = Checkpoint{so_far.record(), so_far.average.sums()};

@@ -191,7 +191,7 @@ TEST_F(SeveralDevices, StopWhenTheCallerWantsNoMore) {
     const Scene scene = lit_floor();
     Session session(std::vector{&device(0), &device(1)}, scene);
     std::size_t rows = 0;
-    RenderHooks hooks{.progress = [](const std::string&, double fraction) { return fraction < 0.3; }};
+    RenderHooks hooks{.progress = [](double fraction) { return fraction < 0.3; }};
     hooks.rows = [&](std::span<const float> finished) {
         rows += finished.size() / (200 * NEARLIGHT_LAYER_CHANNELS);
     };

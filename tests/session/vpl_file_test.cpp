@@ -161,7 +161,7 @@ TEST(VplFile, KeepsEveryBit) {
     EXPECT_EQ(read.origin->asked_count, 1u);
     ASSERT_TRUE(read.origin->ray_budget);
     EXPECT_EQ(read.origin->ray_budget->clamp_radius, 0.123456789f);
-    EXPECT_EQ(read.origin->ray_budget->light_samples_per_pixel, 32u);
+    EXPECT_EQ(read.origin->ray_budget->direct_samples_per_pixel, 32u);
     EXPECT_EQ(read.origin->ray_budget->shared_limit, 7.7777777f);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that rough surfaces send in search of lights (CameraBand::light_rays): they change the noise of a
+// Rays that rough surfaces send in search of lights (CameraBatch::light_rays): they change the noise of a
 // picture, and not its expectation.
 #include "host/base/random.h"
 #include "host/stages/camera_pass.h"
@@ -64,7 +64,7 @@ Estimate seen_light(Shooting& shooting, uint rays, uint samples) {
         double sum = 0;
         double squares = 0;
         for (std::size_t i = 0; i < samples; ++i) {
-            const double value = found.vertices[i * NEARLIGHT_PACKET_SIZE + pixel].emitted.y;
+            const double value = found.vertices[i * NEARLIGHT_PACKET_SIZE + pixel].camera_light.y;
             sum += value / samples;
             squares += value * value / samples;
         }

@@ -40,7 +40,7 @@ VariedPixels varied_pixels() {
 
 class CameraLightsTest : public test::DeviceTest {
   protected:
-    static std::vector<CameraLight> add(Device& device, const FilmSamples& samples, const CameraBand& batch,
+    static std::vector<CameraLight> add(Device& device, const FilmSamples& samples, const CameraBatch& batch,
                                         const std::vector<CameraLight>& before) {
         CameraLights stage(device);
         Buffer<CameraLight> lights(device, before);
@@ -59,13 +59,13 @@ class CameraLightsTest : public test::DeviceTest {
 
 TEST_F(CameraLightsTest, HalvesAreSumsOverSamplesAndBranches) {
     const FilmSamples samples = random_film_samples(kFiveSamples);
-    const CameraBand band{.tile_row_count = static_cast<uint>(kFiveSamples.tile_rows()),
-                          .sample_count = kFiveSamples.samples,
-                          .samples_per_pixel = kFiveSamples.samples,
-                          .branch_count = kFiveSamples.branches};
+    const CameraBatch batch{.tile_row_count = static_cast<uint>(kFiveSamples.tile_rows()),
+                            .sample_count = kFiveSamples.samples,
+                            .samples_per_pixel = kFiveSamples.samples,
+                            .branch_count = kFiveSamples.branches};
     on_each_device([&](Device& device) {
         const std::vector<CameraLight> found =
-            add(device, samples, band, std::vector<CameraLight>(kPixelCount, {{1, 0, 0}, {0, 2, 0}}));
+            add(device, samples, batch, std::vector<CameraLight>(kPixelCount, {{1, 0, 0}, {0, 2, 0}}));
         for (uint i = 0; i < kPixelCount; ++i) {
             const CameraLight expected = expected_camera_light(
                 samples, kFiveSamples, kFirstHalf, i % kFiveSamples.width, i / kFiveSamples.width);

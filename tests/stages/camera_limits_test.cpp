@@ -63,7 +63,7 @@ Seen seen_over(Shooting& shooting, uint max_depth, float min_weight = 0.0f) {
                              .max_depth = max_depth,
                              .min_weight = min_weight})
                                      .vertices) {
-        seen.emitted += v.emitted.y + v.traced_direct.y;
+        seen.emitted += v.camera_light.y + v.traced_direct.y;
         seen.traced += v.traced_indirect.y;
     }
     return seen;

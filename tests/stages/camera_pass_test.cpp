@@ -74,7 +74,7 @@ TEST_F(CameraPassTest, LeftIsLeftAndUpIsUp) {
             const std::size_t x = tile % 2 * kTile + i % kTile;
             const std::size_t y = tile / 2 * kTile + i % NEARLIGHT_PACKET_SIZE / kTile;
             const bool on_lamp = x >= 4 && x <= 5 && y >= 4 && y <= 5;
-            EXPECT_EQ(found.vertices[i].emitted.x, on_lamp ? 1.0f : 0.0f) << x << ", " << y;
+            EXPECT_EQ(found.vertices[i].camera_light.x, on_lamp ? 1.0f : 0.0f) << x << ", " << y;
         }
     });
 }
@@ -86,9 +86,9 @@ TEST_F(CameraPassTest, EmissionIsOfTheFrontOnly) {
     add_quad(scene, {-9, -9, 2}, {0, 18, 0}, {18, 0, 0}, add_material(scene, lamp));
     on_each_ray_tree([&](Device& device) {
         set_camera(scene, {0, 0, 0}, {0, 0, 1}, 40);
-        EXPECT_EQ(Shooting(device, scene, 8, 8).shoot_all(1, 1).vertices[9].emitted.y, 2.0f);
+        EXPECT_EQ(Shooting(device, scene, 8, 8).shoot_all(1, 1).vertices[9].camera_light.y, 2.0f);
         set_camera(scene, {0, 0, 4}, {0, 0, 1}, 40);
-        EXPECT_EQ(Shooting(device, scene, 8, 8).shoot_all(1, 1).vertices[9].emitted.y, 0.0f);
+        EXPECT_EQ(Shooting(device, scene, 8, 8).shoot_all(1, 1).vertices[9].camera_light.y, 0.0f);
     });
 }
 
@@ -108,13 +108,13 @@ TEST_F(CameraPassTest, BandsAndBatchesDoNotChangeABit) {
               {3, 1, 2, 3, 1, 1, 3},
               {2, 2, 1, 4, 2, 2, 1},
               {0, 3, 5, 1, 2, 2, 1}}) {
-            const CameraBand band{0,           row,      rows, sample,
-                                  samples,     kSamples, 2,    bundle_columns,
-                                  bundle_rows, together, 1,    kManyEdges};
-            const GBuffer part = shooting.shoot(band);
+            const CameraBatch batch{0,           row,      rows, sample,
+                                    samples,     kSamples, 2,    bundle_columns,
+                                    bundle_rows, together, 1,    kManyEdges};
+            const GBuffer part = shooting.shoot(batch);
             for (uint i = 0; i < 5 * rows * samples * 2; ++i) {
                 const uint x = i / 2 / samples % 5, y = i / 2 / samples / 5, s = i / 2 % samples;
-                const uint p = packet_at(packet_order(band, 37), x, y, s, i % 2);
+                const uint p = packet_at(packet_order(batch, 37), x, y, s, i % 2);
                 const uint same = packet_at(order, x, y + row, s + sample, i % 2);
                 ASSERT_EQ(std::memcmp(&part.receivers[p], &whole.receivers[same], sizeof(ReceiverPacket)), 0);
                 ASSERT_EQ(std::memcmp(&part.vertices[p * NEARLIGHT_PACKET_SIZE],
@@ -155,7 +155,7 @@ TEST_F(CameraPassTest, WithoutLobesTheSecondBranchIsAbsent) {
             receivers += is_zero(b.receiver[0].normal) ? 0 : 1;
             ASSERT_TRUE(is_zero(b.receiver[1].normal));
             ASSERT_TRUE(is_zero(b.vertex[1].throughput));
-            ASSERT_TRUE(is_zero(b.vertex[1].emitted));
+            ASSERT_TRUE(is_zero(b.vertex[1].camera_light));
         }
         EXPECT_GT(receivers, 500u);
     });
@@ -225,8 +225,9 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
             const GBuffer found = Shooting(device, scene, 16, 16).shoot_all(8, 2);
             for (std::size_t i = 0; i < found.vertices.size() / 2; ++i) {
                 const Branches b = branches_of(found, i / NEARLIGHT_PACKET_SIZE, i % NEARLIGHT_PACKET_SIZE);
-                ASSERT_NEAR(b.vertex[0].emitted.y + b.vertex[1].emitted.y, 2.0f, 2e-4f) << "thin " << thin;
-                ASSERT_GT(b.vertex[1].emitted.y, 0.0f);
+                ASSERT_NEAR(b.vertex[0].camera_light.y + b.vertex[1].camera_light.y, 2.0f, 2e-4f)
+                    << "thin " << thin;
+                ASSERT_GT(b.vertex[1].camera_light.y, 0.0f);
             }
         });
     }
@@ -236,7 +237,7 @@ TEST_F(CameraPassTest, ClearGlassUnderAConstantSkyIsInvisible) {
 double sum_emitted(const GBuffer& found) {
     double sum = 0;
     for (const CameraVertex& v : found.vertices) {
-        sum += v.emitted.y;
+        sum += v.camera_light.y;
     }
     return sum;
 }
@@ -267,7 +268,7 @@ std::pair<double, double> picture_sums(Shooting& shooting, uint samples, uint br
     double emitted = 0;
     double reflectance = 0;
     for (const CameraVertex& v : shooting.shoot_all(samples, branches).vertices) {
-        emitted += v.emitted.y;
+        emitted += v.camera_light.y;
         reflectance += static_cast<double>(v.throughput.y) * v.albedo.y;
     }
     return {emitted, reflectance};
@@ -310,7 +311,7 @@ TEST_F(CameraPassTest, LightOfReceiversOfLittleWeightIsTraced) {
                                       .shoot({.tile_row_count = 1, .max_depth = 3, .min_weight = min_weight});
             for (std::size_t i = 0; i < found.vertices.size(); ++i) {
                 EXPECT_NEAR(found.vertices[i].traced_direct.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
-                EXPECT_TRUE(is_zero(found.vertices[i].emitted));
+                EXPECT_TRUE(is_zero(found.vertices[i].camera_light));
                 EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced);
                 EXPECT_TRUE(is_zero(found.vertices[i].traced_indirect))
                     << "there is no second surface to reflect";
@@ -329,7 +330,6 @@ struct Scattered {
 Scattered scattered(const Scene& scene, Vec3 to_viewer, int samples) {
     const Surface surface{.position = {0, 0, 0},
                           .geometric_normal = {0, 1, 0},
-                          .shading_normal = {0, 1, 0},
                           .front_normal = {0, 1, 0},
                           .along_u = {0, 0, 0},
                           .along_v = {0, 0, 0},
@@ -367,7 +367,7 @@ TEST_F(CameraPassTest, RoughGlassMasksBothWays) {
                     double sum = 0;
                     for (const CameraVertex& vertex :
                          Shooting(device, scene, 8, 8).shoot_all(2048, 2).vertices) {
-                        sum += vertex.emitted.x;
+                        sum += vertex.camera_light.x;
                     }
                     EXPECT_NEAR(sum / (64.0 * 2048), above ? expected.up : expected.down, 0.004)
                         << roughness << ", " << tilt << "°, above " << above;

@@ -38,12 +38,12 @@ TEST_F(CameraPixelListTest, ListedPixelsAreThoseOfThePicture) {
         listed.push_back(0);
         const Buffer<uint> numbers(device, listed);
         const ListedPixels only{numbers, {.count = 71, .first = 1, .width = 20, .x = 8, .y = 16}};
-        const CameraBand band = one_tile_row({.sample_count = kSamples,
-                                              .samples_per_pixel = kSamples,
-                                              .branch_count = 2,
-                                              .max_depth = kManyEdges});
-        const GBuffer found = shooting.shoot(band, 1, &only, 2 * NEARLIGHT_TILE_SIZE);
-        const PacketOrder order = packet_order(band, 2 * NEARLIGHT_TILE_SIZE);
+        const CameraBatch batch = one_tile_row({.sample_count = kSamples,
+                                                .samples_per_pixel = kSamples,
+                                                .branch_count = 2,
+                                                .max_depth = kManyEdges});
+        const GBuffer found = shooting.shoot(batch, 1, &only, 2 * NEARLIGHT_TILE_SIZE);
+        const PacketOrder order = packet_order(batch, 2 * NEARLIGHT_TILE_SIZE);
         for (uint place = 0; place < 2 * NEARLIGHT_PACKET_SIZE; ++place) {
             const uint at_x = place % 16, at_y = place / 16;
             const uint lane = at_y * NEARLIGHT_TILE_SIZE + at_x % NEARLIGHT_TILE_SIZE;

@@ -34,7 +34,7 @@ TEST_F(CameraSamplesTest, AreEvenlySpreadOverGloss) {
             const GBuffer found = shooting.shoot_all(samples, 1);
             std::array<double, NEARLIGHT_PACKET_SIZE> pixels{};
             for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-                pixels.at(i % pixels.size()) += double{found.vertices[i].emitted.y} / samples;
+                pixels.at(i % pixels.size()) += double{found.vertices[i].camera_light.y} / samples;
             }
             double sum = 0, squares = 0;
             for (const double pixel : pixels) {

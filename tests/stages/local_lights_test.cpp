@@ -98,7 +98,7 @@ Vec3 exitance(const Bvh& bvh, const Vpl& light) {
 constexpr float kRadius = 0.5f;
 LocalLightPlan plan_of(uint bounce_count) {
     return {.clamp_radius = 0.01f,
-            .widest_radius = kRadius,
+            .max_radius = kRadius,
             .rays_per_receiver = kRays,
             .direct_samples = 1,
             .bounce_count = bounce_count,
@@ -202,11 +202,11 @@ double wall_remainder(Vec3 x, Vec3 shading, const LocalLightPlan& plan,
             const double dy = (j + 0.5) * step - x.y;
             const double squared = dx * dx + dy * dy + depth * depth;
             const bool is_seen = dx * shading.x + dy * shading.y + depth * shading.z < 0;
-            if (squared > plan.widest_radius * plan.widest_radius || dy < 0 || !is_seen) {
+            if (squared > plan.max_radius * plan.max_radius || dy < 0 || !is_seen) {
                 continue;
             }
             const double e = irradiance({float(dx) + x.x, float(dy) + x.y, 1});
-            double radius = plan.widest_radius;
+            double radius = plan.max_radius;
             for (int level = 1; level < 4 && radius * std::sqrt(e) > plan.radius_at_unit_light; ++level) {
                 radius /= 2;
             }

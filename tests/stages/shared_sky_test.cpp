@@ -79,14 +79,14 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
     const CloseRange region = make_close_range(camera, 1.0f);
     const Buffer<Camera> cameras(device, std::span(&camera, 1));
     const Buffer<CloseRange> regions(device, std::span(&region, 1));
-    const CameraBand band{.tile_row_count = tiles_across(static_cast<uint>(kSide)),
-                          .branch_count = 2,
-                          .bundle_columns = 2,
-                          .bundle_rows = 2,
-                          .max_depth = 4,
-                          .light_rays = search.rays,
-                          .sky_rays = search.shared ? search.rays : 0};
-    const std::size_t packets = packet_count(band, static_cast<uint>(kSide));
+    const CameraBatch batch{.tile_row_count = tiles_across(static_cast<uint>(kSide)),
+                            .branch_count = 2,
+                            .bundle_columns = 2,
+                            .bundle_rows = 2,
+                            .max_depth = 4,
+                            .light_rays = search.rays,
+                            .sky_rays = search.shared ? search.rays : 0};
+    const std::size_t packets = packet_count(batch, static_cast<uint>(kSide));
     const std::size_t count = packets * NEARLIGHT_PACKET_SIZE;
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, count);
@@ -106,7 +106,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
                                             .clamp_radius = 0.1f,
                                             .seed = 50u + static_cast<uint>(seed),
                                             .shares_sky = true};
-        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, band, settings.seed},
+        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, batch, settings.seed},
                         {receivers, vertices, &seen});
         const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
@@ -122,7 +122,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
             const double green = irradiance_at(irradiance, i).y;
             light.direct[i] += green / search.seeds;
             light.direct_square[i] += green * green / search.seeds;
-            const double emitted = met[i].emitted.y;
+            const double emitted = met[i].camera_light.y;
             light.emitted[i] += emitted / search.seeds;
             light.emitted_square[i] += emitted * emitted / search.seeds;
         }

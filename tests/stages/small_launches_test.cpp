@@ -42,15 +42,15 @@ TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
         const test::SceneOnDevice scene(device, bright_corner());
         const Camera camera = make_camera(scene.scene.camera, 5, 3);
         const CloseRange region = make_close_range(camera, 1.5f);
-        const CameraBand band{.tile_row_count = tiles_across(camera.height), .branch_count = 2};
-        const std::size_t packets = packet_count(band, camera.width);
+        const CameraBatch batch{.tile_row_count = tiles_across(camera.height), .branch_count = 2};
+        const std::size_t packets = packet_count(batch, camera.width);
         Buffer<ReceiverPacket> receivers(device, packets);
         Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
         CameraPass(device).run({.scene = scene.buffers,
                                 .camera = Buffer<Camera>(device, std::span(&camera, 1)),
                                 .width = camera.width,
                                 .close_range = Buffer<CloseRange>(device, std::span(&region, 1)),
-                                .band = band,
+                                .batch = batch,
                                 .seed = 1},
                                {receivers, vertices});
         Buffer<IrradiancePacket> direct(device, packets);
@@ -66,7 +66,7 @@ TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
         Buffer<float> layers(device, pixels * NEARLIGHT_LAYER_CHANNELS);
         sums.fill_zero();
         Film film(device);
-        film.add(receivers, vertices, {.direct = direct, .gathered = indirect, .indirect = indirect}, band,
+        film.add(receivers, vertices, {.direct = direct, .gathered = indirect, .indirect = indirect}, batch,
                  camera.width, camera.height, sums);
         film.resolve(sums, pixels, 1, layers);
         return layers.download();
@@ -178,7 +178,7 @@ TEST_F(SmallLaunchesTest, LocalLightsOfAPacket) {
         const test::SceneOnDevice scene(device, bright_corner());
         const std::vector<ReceiverPacket> packets = few_receivers(scene, 8, 8);
         const LocalLightPlan plan{.clamp_radius = 0.1f,
-                                  .widest_radius = 0.8f,
+                                  .max_radius = 0.8f,
                                   .radius_at_unit_light = 0.4f,
                                   .bounce_count = 2,
                                   .seed = 3};

@@ -142,10 +142,10 @@ TEST_F(VplContributionTest, ErrorsAreRootsOfSumsOfSquaresAndGroupsAddUpToThePict
                 expected_contribution(data, vertices, data.vpls[v], ContributionNorm::mean, threshold);
             EXPECT_NEAR(luminance(sum), mean, 1e-4 * mean) << "VPL " << v;
             const double error = expected_contribution(data, vertices, data.vpls[v],
-                                                       ContributionNorm::rough_mean_square, threshold);
+                                                       ContributionNorm::error_of_draw, threshold);
             EXPECT_NEAR(found.errors[v], error, 1e-4 * error) << "VPL " << v;
             const double all =
-                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::rough_mean_square);
+                expected_contribution(data, vertices, data.vpls[v], ContributionNorm::error_of_draw);
             max_left_out = std::max(max_left_out, 1 - error / all);
             const double unoccluded = std::sqrt(threshold) / M_PI * luminance(data.vpls[v].power);
             EXPECT_NEAR(found.unoccluded[v], unoccluded, 1e-4 * unoccluded) << "VPL " << v;

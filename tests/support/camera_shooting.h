@@ -30,13 +30,15 @@ class Shooting {
           cameras_(device, std::span(&camera, 1)),
           regions_(device, std::span(&region, 1)) {}
 
-    GBuffer shoot(const CameraBand& band, uint seed = 1) { return shoot(band, seed, nullptr, camera.width); }
+    GBuffer shoot(const CameraBatch& batch, uint seed = 1) {
+        return shoot(batch, seed, nullptr, camera.width);
+    }
     /// Looks at the pixels of a list, if there is one, from `width` places in a row.
-    GBuffer shoot(const CameraBand& band, uint seed, const ListedPixels* only, uint width) {
-        const std::size_t packets = packet_count(band, width);
+    GBuffer shoot(const CameraBatch& batch, uint seed, const ListedPixels* only, uint width) {
+        const std::size_t packets = packet_count(batch, width);
         Buffer<ReceiverPacket> receivers(*device_, packets);
         Buffer<CameraVertex> vertices(*device_, packets * NEARLIGHT_PACKET_SIZE);
-        pass_.run({scene_.buffers, cameras_, width, regions_, band, seed, only}, {receivers, vertices});
+        pass_.run({scene_.buffers, cameras_, width, regions_, batch, seed, only}, {receivers, vertices});
         return {receivers.download(), vertices.download()};
     }
     /// Renders all rows, with all `samples` samples.

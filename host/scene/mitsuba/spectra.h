@@ -2,7 +2,6 @@
 // Spectra as the colours that Mitsuba's RGB variants make of them.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>

@@ -12,6 +12,7 @@
 #include "host/scene/model_scene.h"
 #include "host/scene/obj/mtl_entry.h"
 #include "host/scene/obj/mtl_file.h"
+#include "host/scene/obj/obj_images.h"
 #include "host/scene/scene_names.h"
 #include "host/scene/texture.h"
 #include "host/scene/texture_loader.h"
@@ -353,25 +354,6 @@ const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& librarie
         return library.names.contains(name);
     });
     return found == libraries.end() ? nullptr : &*found;
-}
-
-/// The images of the textures that most entries use, in the order of the materials.
-std::vector<ImageSource> images_of(const std::vector<std::string>& names,
-                                   const std::vector<const MaterialLibrary*>& owners) {
-    std::vector<ImageSource> images;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (owners[i] == nullptr) {
-            continue;
-        }
-        const tinyobj::material_t& entry = owners[i]->entry(names[i]);
-        for (const std::string* texture :
-             {&entry.diffuse_texname, &entry.bump_texname, &entry.normal_texname, &entry.alpha_texname}) {
-            if (!texture->empty()) {
-                images.push_back({.file = resolve_path(owners[i]->file, *texture)});
-            }
-        }
-    }
-    return images;
 }
 
 }  // namespace
