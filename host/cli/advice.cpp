@@ -15,7 +15,7 @@ struct SettingAdvice {
 
 constexpr std::array kAdvice{
     SettingAdvice{"cache_dir", "use --cache-dir"},
-    SettingAdvice{"camera", "check --origin, --target and --fov"},
+    SettingAdvice{"camera", "check --origin, --target, --up and --fov"},
     SettingAdvice{"clamp_fraction", "use --clamp-radius or --clamp-fraction"},
     SettingAdvice{"device", "use --device"},
     SettingAdvice{"frames", "leave out --frames for a picture of it"},

@@ -100,15 +100,20 @@ void check_checkpoint_file(const std::filesystem::path& file, const std::vector<
     check_writable(file.string());
 }
 
+void refuse_existing_checkpoint(const std::filesystem::path& file, const char* advice) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) {
+        throw Error(ErrorKind::file, "the checkpoint '" + file.string() + "' is there already; " + advice);
+    }
+}
+
 void check_checkpoint(const CheckpointOptions& options, const std::vector<std::string>& outputs) {
     if (options.file.empty()) {
         return;
     }
     check_checkpoint_file(options.file, outputs);
-    std::error_code error;
-    if (!options.resumes && std::filesystem::exists(options.file, error)) {
-        throw Error(ErrorKind::file, "the checkpoint '" + options.file.string() +
-                                         "' is there already; go on from it with --resume, or remove it");
+    if (!options.resumes) {
+        refuse_existing_checkpoint(options.file, "go on from it with --resume, or remove it");
     }
 }
 

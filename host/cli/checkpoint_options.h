@@ -27,6 +27,9 @@ void add_checkpoint_options(CLI::App& command, CheckpointOptions& options);
 /// Throws Error(ErrorKind::invalid_argument) if the checkpoint is one of `outputs`, and
 /// Error(ErrorKind::file) if it cannot be written.
 void check_checkpoint_file(const std::filesystem::path& file, const std::vector<std::string>& outputs);
+/// Throws Error(ErrorKind::file), whose message ends with `advice`, if there is a file, whatever it holds:
+/// the work in a checkpoint is not to be lost by a mistake.
+void refuse_existing_checkpoint(const std::filesystem::path& file, const char* advice);
 
 /// Checks before any work starts that the checkpoint can be written and replaces no file by mistake. Throws
 /// Error(ErrorKind::file) and, if it is one of `outputs`, Error(ErrorKind::invalid_argument).

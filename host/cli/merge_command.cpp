@@ -52,6 +52,7 @@ void check_merge_options(const MergeOptions& options) {
     check_outputs(options.picture);
     if (!options.checkpoint.empty()) {
         check_checkpoint_file(options.checkpoint, options.picture.outputs);
+        refuse_existing_checkpoint(options.checkpoint, "give another file, or remove it");
     }
 }
 

@@ -226,7 +226,8 @@ void add_reference_command(CommandLine& line) {
     add_screen_options(command, options->screen);
     command
         .add_option("--spp", options->spp,
-                    "Samples per pixel, rounded up to whole batches of 4 or 16 (default: the scene's, or " +
+                    "Samples per pixel, rounded up to a multiple of 4 from 32 on, and of 16 from 256 on "
+                    "(default: the scene's, or " +
                         std::to_string(kDefaultSpp) + ")")
         ->check(CLI::Range(1, 1 << 24));
     command

@@ -159,7 +159,8 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     }
     metadata["nearlight:clampRadius"] = report.ray_budget.clamp_radius;
     metadata["nearlight:raysPerPixel"] = static_cast<int>(settings.gather.rays_per_pixel);
-    metadata["nearlight:directSamplesPerPixel"] = static_cast<int>(report.ray_budget.direct_samples_per_pixel);
+    metadata["nearlight:directSamplesPerPixel"] =
+        static_cast<int>(report.ray_budget.direct_samples_per_pixel);
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
     metadata["nearlight:refine"] = settings.gather.refine ? "on" : "off";
     metadata["nearlight:glass"] = glass_name(scene.clear_glass);

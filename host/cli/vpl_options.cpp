@@ -2,6 +2,7 @@
 #include "host/cli/vpl_options.h"
 
 #include "host/cli/log.h"
+#include "host/cli/picture_files.h"
 #include "host/session/passes.h"
 #include "nearlight/error.h"
 
@@ -32,6 +33,9 @@ void settle(const VplFiles& files, RenderSettings& settings) {
             ErrorKind::invalid_argument,
             "--save-vpls needs a picture of one pass, because each pass has VPLs of its own; leave out "
             "--passes, --pass-spp, --time and --error");
+    }
+    if (!files.save.empty()) {
+        check_writable(files.save.string());
     }
 }
 

@@ -80,6 +80,9 @@ std::string noise_remark(const Reference& reference, std::span<const EqualVplsRo
         text += fmt::format(
             "; about {:.0f} {} would be enough", more * static_cast<double>(reference.samples),
             reference.path_traced ? "samples per pixel of the reference" : "VPLs of the reference");
+    } else {
+        text += reference.path_traced ? "; give the reference more samples per pixel"
+                                      : "; give the reference more VPLs";
     }
     return text +
            (reference.path_traced ? ", or use a reference of VPLs, whose noise is spread more evenly" : "");

@@ -12,9 +12,9 @@ namespace nearlight::core {
 struct Surface {
     Vec3 position;          ///< on the triangle
     Vec3 geometric_normal;  ///< unit vector, on the side that the ray came from
-    Vec3 front_normal;      ///< the unit shading normal as the vertices have it, which says where the front is
-    Vec3 along_u;  ///< derivatives of the position by the texture coordinates; zero where these do not
-    Vec3 along_v;  ///< span the triangle
+    Vec3 front_normal;  ///< the unit shading normal as the vertices have it, which says where the front is
+    Vec3 along_u;       ///< derivatives of the position by the texture coordinates; zero where these do not
+    Vec3 along_v;       ///< span the triangle
     Vec3 vertex_color{1, 1, 1};
     float u = 0.0f;  ///< texture coordinates
     float v = 0.0f;

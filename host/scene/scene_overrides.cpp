@@ -101,7 +101,7 @@ EnvironmentLight environment_named(const std::string& name, const Scene& scene, 
                     "environment");
     }
     std::size_t bad_pixels = 0;
-    light = load_environment(name, 1.0f, bad_pixels);
+    light = load_environment(name, 1.0f, 0.0f, bad_pixels);
     light.is_interpolated = light.width > 1 && light.height > 1;
     if (bad_pixels > 0) {
         notes.approximation(scene.source, 0,

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "host/base/half.h"
-#include "host/image/color.h"
 #include "host/image/image_io.h"
 #include "nearlight/error.h"
 
@@ -60,15 +59,18 @@ int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const s
     if (!is_new) {
         return entry->second;
     }
+    const Image* pixels = nullptr;
     try {
-        entry->second = add_texels(reader_.read(image), image.file.filename().string(), rule,
-                                   holds_floats(image.file), {file, line, {}});
+        pixels = &reader_.read(image);
     } catch (const Error& error) {
         throw_unless_file(error);
         notes_.approximation(
             file, line,
             std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
+        return -1;
     }
+    entry->second =
+        add_texels(*pixels, image.file.filename().string(), rule, holds_floats(image.file), {file, line, {}});
     return entry->second;
 }
 
@@ -124,9 +126,9 @@ int add_texture(Scene& scene, const SceneTexture& texture) {
     return static_cast<int>(scene.textures.size() - 1);
 }
 
-EnvironmentLight load_environment(const std::filesystem::path& file, float scale, std::size_t& bad_pixels) {
-    const Image image = read_image(file);
-    const bool linear = holds_floats(file);
+EnvironmentLight load_environment(const std::filesystem::path& file, float scale, float gamma,
+                                  std::size_t& bad_pixels) {
+    const Image image = gamma > 0.0f ? read_image(file) : read_linear_image(file);
     EnvironmentLight light;
     light.width = image.width;
     light.height = image.height;
@@ -137,7 +139,7 @@ EnvironmentLight load_environment(const std::filesystem::path& file, float scale
         std::array<float, 3> rgb = rgb_at(image, i);
         bool is_bad = false;
         for (float& value : rgb) {
-            value = (linear ? value : srgb_to_linear(value)) * scale;
+            value = (gamma > 0.0f ? std::pow(value, gamma) : value) * scale;
             if (!(value >= 0.0f && std::isfinite(value))) {
                 is_bad = true;
                 value = 0.0f;

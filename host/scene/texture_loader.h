@@ -55,8 +55,10 @@ SceneTexture plain_texture(int image);
 SceneTexture vertex_color_texture();
 /// Adds a texture to the scene and returns its index.
 int add_texture(Scene& scene, const SceneTexture& texture);
-/// Reads linear RGB radiance and multiplies it by `scale`; there is no rotation. Pixels that are negative or
-/// not finite are black in that channel, and `bad_pixels` counts them. Throws Error(ErrorKind::file).
-EnvironmentLight load_environment(const std::filesystem::path& image, float scale, std::size_t& bad_pixels);
+/// Reads RGB radiance and multiplies it by `scale`; there is no rotation. The radiance is the number of the
+/// file to the power of `gamma`; 0: sRGB-encoded in files of integers, else linear. Pixels that are negative
+/// or not finite are black in that channel, and `bad_pixels` counts them. Throws Error(ErrorKind::file).
+EnvironmentLight load_environment(const std::filesystem::path& image, float scale, float gamma,
+                                  std::size_t& bad_pixels);
 
 }  // namespace nearlight::core

@@ -100,7 +100,9 @@ struct FieldsOf<GatherSettings> {
         Field{"rays_per_pixel", &GatherSettings::rays_per_pixel, "the number of these rays"},
         Field{"refine", &GatherSettings::refine,
               "whether edges of lamps and windows, of their images and of highlights get more camera paths"},
-        Field{"indirect_only", &GatherSettings::indirect_only, "leaves out the direct light of receivers, but not lights that are seen, mirrored or in highlights"},
+        Field{"indirect_only", &GatherSettings::indirect_only,
+              "leaves out the direct light of receivers, but not lights that are seen, mirrored or in "
+              "highlights"},
         Field{"shared_limit", &GatherSettings::shared_limit,
               "radiance of lamps met by chance that bundles share at most; None: a pilot chooses"},
         Field{"roulette", &GatherSettings::roulette,

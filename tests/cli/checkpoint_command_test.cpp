@@ -300,6 +300,9 @@ TEST_F(CheckpointsOfRender, JobsThatDoNotBelongTogetherAreRefused) {
     EXPECT_EQ(merge({"a"}, "").exit_code, 2);
     const std::string same = quoted(folder_ / "x.exr");
     EXPECT_EQ(merge({"a"}, "-o " + same + " --checkpoint " + same).exit_code, 2);
+    const ProgramResult lost = merge({"a"}, "--checkpoint " + quoted(folder_ / "other.sums"));
+    EXPECT_EQ(lost.exit_code, 3);
+    EXPECT_NE(lost.errors.find("is there already; give another file"), std::string::npos) << lost.errors;
     EXPECT_EQ(
         run_program("merge " + quoted(folder_ / "a.exr") + " -o " + quoted(folder_ / "x.exr")).exit_code, 3);
 }

@@ -60,6 +60,14 @@ TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {
     EXPECT_FLOAT_EQ(side_of(load()).metallic.value.x, 1.0f);
 }
 
+TEST_F(GltfLoader, AnIndexOfZeroStandsForAnInfiniteOne) {
+    gltf_.material() = {
+        {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
+        {"extensions",
+         {{"KHR_materials_specular", {{"specularFactor", 0.25}}}, {"KHR_materials_ior", {{"ior", 0}}}}}};
+    EXPECT_NEAR(side_of(load()).eta.x, 3.0f, 0.01f) << "a quarter of the light is reflected";
+}
+
 TEST_F(GltfLoader, ReflectionsDoNotChangeWhatGlassRefracts) {
     gltf_.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
                         {"extensions",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and images that make no sense: each gets one warning that names file and line, and no NaN.
+#include <cmath>
 #include <limits>
 
 #include "host/scene/material_model.h"
@@ -91,6 +92,52 @@ TEST_F(MitsubaBadInput, BadEnvironmentsGetOneWarning) {
     expect_near(scene_.environment.radiance.at(0), {0, 0.5f, 0});
     load_environment("black.exr");
     EXPECT_EQ(notes_on_line_2("the environment is black"), 1u);
+}
+
+TEST_F(MitsubaBadInput, WhatContainsItselfIsToldAndNeitherFollowedForEverNorOffTheStack) {
+    const auto message_of = [&](const std::string& body) {
+        return file_error([&] { scene_ = files_.load_xml(body); });
+    };
+    EXPECT_TRUE(mentions(message_of("<integrator type='aov' id='a'><ref id='a'/></integrator>"),
+                         "more than 8 integrators lie within each other"));
+    EXPECT_TRUE(mentions(message_of("<shape type='merge' id='m'><ref id='m'/><ref id='m'/></shape>"),
+                         "merges lie too deep in one another"));
+    std::string scales;
+    for (int i = 0; i < 40000; ++i) {
+        scales += "<texture type='scale' id='t" + std::to_string(i) + "'><ref id='t" + std::to_string(i + 1) +
+                  "'/></texture>";
+    }
+    scales += "<texture type='checkerboard' id='t40000'/>";
+    const std::string shape =
+        "<shape type='rectangle'><bsdf type='diffuse'><ref name='reflectance' id='t0'/></bsdf></shape>";
+    EXPECT_TRUE(mentions(message_of(scales + shape), "more than 64 textures lie within each other"));
+}
+
+TEST_F(MitsubaBadInput, DeepMaterialsOfMeshesAreTold) {
+    std::string deep = "<bsdf type='diffuse' id='b40000'/>";
+    for (int i = 0; i < 40000; ++i) {
+        deep += "<bsdf type='twosided' id='b" + std::to_string(i) + "'><ref id='b" + std::to_string(i + 1) +
+                "'/></bsdf>";
+    }
+    files_.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string message = file_error([&] {
+        scene_ = files_.load_xml(deep + "<shape type='obj'>" + text("filename", "one.obj") +
+                                 "<ref id='b0'/></shape>");
+    });
+    EXPECT_TRUE(mentions(message, "more than 8 bsdfs lie within each other")) << message;
+}
+
+TEST_F(MitsubaBadInput, EnvironmentsHaveTheirGamma) {
+    write_image(files_.path("grey.png"), {1, 1, {"R", "G", "B"}, {0.25f, 0.25f, 0.25f}});
+    const auto radiance = [&](const std::string& gamma) {
+        scene_ =
+            files_.load_xml("<emitter type='envmap'>" + text("filename", "grey.png") + gamma + "</emitter>");
+        return scene_.environment.radiance.at(0).x;
+    };
+    EXPECT_NEAR(radiance(""), 0.25f, 0.002f);
+    EXPECT_NEAR(radiance(number("gamma", "-1")), 0.25f, 0.002f);
+    EXPECT_NEAR(radiance(number("gamma", "1")), 137 / 255.0f, 1e-5f);
+    EXPECT_NEAR(radiance(number("gamma", "2")), std::pow(137 / 255.0f, 2.0f), 1e-5f);
 }
 
 }  // namespace

@@ -93,9 +93,9 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
     mesh.second_uvs = read_uvs(data, sets.second);
     for (const int set : {sets.first, sets.second}) {
         if (set >= 0 && !data.has(name_of_uvs(set))) {
-            notes_.remark(file_.path, 0,
-                          "a texture asks for " + name_of_uvs(set) +
-                              ", which its mesh does not have; a corner of it is used everywhere");
+            notes_.approximation(file_.path, 0,
+                                 "a texture asks for " + name_of_uvs(set) +
+                                     ", which its mesh does not have; a corner of it is used everywhere");
         }
     }
     read_colors(data, primitive.material, mesh);

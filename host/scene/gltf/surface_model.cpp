@@ -43,6 +43,8 @@ struct Base {
     float alpha = 1;
 };
 
+/// Whether a material is to be made of KHR_materials_pbrSpecularGlossiness. Where textures of the
+/// metallic-roughness model stand beside it, these are used, because nothing of them has to be converted.
 bool has_specular_glossiness(const tinygltf::Material& source) {
     return source.extensions.contains(kSpecularGlossiness) && !source.values.contains("baseColorTexture");
 }
@@ -151,11 +153,18 @@ void read_vertex_alphas(const tinygltf::Material& source, const Base& base, cons
     }
 }
 
+/// Stands for the infinite index that an index of 0 means: all light is reflected, at all angles.
+constexpr double kInfiniteIndex = 1e4;
+
 /// The index and the strength of reflections from KHR_materials_ior and KHR_materials_specular.
 void read_reflections(const tinygltf::Material& source, const SurfaceContext& context,
                       SurfaceModel& surface) {
     constexpr const char* kSpecular = "KHR_materials_specular";
     surface.index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
+    if (surface.index == 0.0) {
+        surface.index = kInfiniteIndex;
+        context.approximate("KHR_materials_ior: an index of 0 is taken for a very large one");
+    }
     const double specular = number_of(source.extensions, kSpecular, "specularFactor", 1);
     const Vec3 tint = color_of(source.extensions, kSpecular, "specularColorFactor", {1, 1, 1});
     const double factor = std::max(0.0, specular) * static_cast<double>(std::max(0.0f, luminance(tint)));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/textures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/scene/material_model.h"
 #include "host/scene/texture.h"
@@ -37,6 +39,10 @@ std::string name_of(const tinygltf::Image& image) {
 
 /// Where the image is read from. Calls fail() if it is in a buffer view that does not exist.
 ImageSource source_of(const GltfFile& file, const tinygltf::Image& image) {
+    if (image.uri.starts_with("data:")) {  // those of other kinds have been decoded by now
+        file.fail("its data URI is not of a kind that is read: " +
+                  image.uri.substr(0, std::min(image.uri.find_first_of(";,"), std::size_t{40})));
+    }
     if (!image.uri.empty()) {
         return {.file = file.path.parent_path() / decoded_uri(image.uri)};
     }
@@ -123,8 +129,9 @@ std::vector<ImageSource> TextureMaker::shown_images() const {
 }
 
 int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule) {
+    std::optional<ImageSource> source;
     try {
-        return loader_.load(source_of(file_, image), rule, file_.path, 0);
+        source = source_of(file_, image);
     } catch (const Error& error) {
         throw_unless_file(error);
         notes_.approximation(
@@ -132,6 +139,7 @@ int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule
             std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
         return -1;
     }
+    return loader_.load(*source, rule, file_.path, 0);
 }
 
 /// The index of the texture's image, −1 if it has none, or −2 with a note if it has only one of a format that

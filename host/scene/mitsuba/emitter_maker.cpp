@@ -36,7 +36,10 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
         const std::filesystem::path file = emitter.required_string("filename");
         try {
             std::size_t bad_pixels = 0;
-            light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)), bad_pixels);
+            // Mitsuba 0.5 and 0.6 give a gamma, where 0 and −1 mean that of the file.
+            const double gamma = std::max(emitter.number("gamma", 0.0), 0.0);
+            light = load_environment(file, static_cast<float>(emitter.number("scale", 1.0)),
+                                     static_cast<float>(gamma), bad_pixels);
             if (bad_pixels > 0) {
                 note(notes, emitter.where,
                      std::to_string(bad_pixels) +
@@ -75,7 +78,7 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         if (scene.environment.width > 0) {
             fail(emitter.where, "a scene can have only one environment");
         }
-        emitter.ignore({"cache", "gamma"});
+        emitter.ignore({"cache"});
         scene.environment =
             is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
         scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where);

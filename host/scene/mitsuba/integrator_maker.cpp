@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace nearlight::core::mitsuba {
@@ -38,7 +39,8 @@ int path_depth(const Object& integrator) {
     return depth < 0.0 ? kUnlimitedPathDepth : static_cast<int>(depth);
 }
 
-void apply_wrapper(const Object& wrapper, Scene& scene, NoteSink& notes) {
+/// The integrator that `wrapper` renders along with something else.
+const Object& wrapped(const Object& wrapper, NoteSink& notes) {
     const std::vector<const Object*> nested = wrapper.nested("integrator");
     if (nested.size() != 1) {
         fail(wrapper.where, "integrator '" + wrapper.type + "' needs one nested integrator");
@@ -49,16 +51,27 @@ void apply_wrapper(const Object& wrapper, Scene& scene, NoteSink& notes) {
             "integrator '" + wrapper.type +
                 "' is left out; the picture is that of the integrator in it, with nearlight's layers");
     }
-    apply_integrator(*nested.front(), scene, notes);
+    return *nested.front();
+}
+
+/// The integrator that makes the picture.
+const Object& innermost(const Object& integrator, NoteSink& notes) {
+    constexpr int kMaxWrappers = 8;
+    const Object* inner = &integrator;
+    for (int depth = 0; is_one_of(kWrappers, *inner); ++depth) {
+        if (depth == kMaxWrappers) {
+            fail(inner->where,
+                 "more than " + std::to_string(kMaxWrappers) + " integrators lie within each other");
+        }
+        inner = &wrapped(*inner, notes);
+    }
+    return *inner;
 }
 
 }  // namespace
 
-void apply_integrator(const Object& integrator, Scene& scene, NoteSink& notes) {
-    if (is_one_of(kWrappers, integrator)) {
-        apply_wrapper(integrator, scene, notes);
-        return;
-    }
+void apply_integrator(const Object& outermost, Scene& scene, NoteSink& notes) {
+    const Object& integrator = innermost(outermost, notes);
     if (is_one_of(kOtherPictures, integrator)) {
         fail(integrator.where,
              "integrator '" + integrator.type +

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/mesh_attribute.h"
 
-#include <set>
-
 namespace nearlight::core::mitsuba {
 namespace {
 
@@ -13,28 +11,6 @@ std::string name_of(const Object& texture) {
     return has_name ? std::get<std::string>(name->second.value) : kVertexColor;
 }
 
-/// What has been seen on the way through the objects below a shape, which may contain each other.
-struct Search {
-    std::set<const Object*> seen;
-    const Object* found = nullptr;
-};
-
-void search(const Object& object, Search& state) {
-    if (!state.seen.insert(&object).second) {
-        return;
-    }
-    if (object.tag == "texture" && is_mesh_attribute(object)) {
-        if (state.found != nullptr && name_of(*state.found) != name_of(object)) {
-            fail(object.where, "a mesh may have one attribute that textures look up, and this one has '" +
-                                   name_of(*state.found) + "' and '" + name_of(object) + "'");
-        }
-        state.found = &object;
-    }
-    for (const Child& child : object.children) {
-        search(*child.object, state);
-    }
-}
-
 }  // namespace
 
 bool is_mesh_attribute(const Object& texture) {
@@ -42,9 +18,18 @@ bool is_mesh_attribute(const Object& texture) {
 }
 
 std::string mesh_attribute_of(const Object& shape) {
-    Search state;
-    search(shape, state);
-    return state.found == nullptr ? kVertexColor : name_of(*state.found);
+    const Object* found = nullptr;
+    visit_all({&shape}, [&](const Object& object) {
+        if (object.tag != "texture" || !is_mesh_attribute(object)) {
+            return;
+        }
+        if (found != nullptr && name_of(*found) != name_of(object)) {
+            fail(object.where, "a mesh may have one attribute that textures look up, and this one has '" +
+                                   name_of(*found) + "' and '" + name_of(object) + "'");
+        }
+        found = &object;
+    });
+    return found == nullptr ? kVertexColor : name_of(*found);
 }
 
 }  // namespace nearlight::core::mitsuba

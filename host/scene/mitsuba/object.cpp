@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "nearlight/error.h"
 
@@ -23,6 +24,22 @@ const T& get(const Property& property, const std::string& name, const char* kind
 
 void fail(const Location& where, const std::string& what) {
     throw Error(ErrorKind::file, to_string(Note{*where.file, where.line, what}));
+}
+
+void visit_all(const std::vector<const Object*>& objects, const std::function<void(const Object&)>& visit) {
+    std::set<const Object*> seen;
+    std::vector<const Object*> coming(objects.rbegin(), objects.rend());
+    while (!coming.empty()) {
+        const Object* const object = coming.back();
+        coming.pop_back();
+        if (object == nullptr || !seen.insert(object).second) {
+            continue;
+        }
+        visit(*object);
+        for (auto child = object->children.rbegin(); child != object->children.rend(); ++child) {
+            coming.push_back(child->object);
+        }
+    }
 }
 
 void fail_unknown_type(const Object& object, const std::string& known) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -96,6 +97,10 @@ struct Document {
     std::vector<std::unique_ptr<Object>> objects;
     const Object* scene = nullptr;
 };
+
+/// Calls `visit` once for each of these objects and for all that lies within them, in their order, also where
+/// they contain themselves. Asks for none of their properties.
+void visit_all(const std::vector<const Object*>& objects, const std::function<void(const Object&)>& visit);
 
 /// Calls fail() with the list of the known types.
 [[noreturn]] void fail_unknown_type(const Object& object, const std::string& known);

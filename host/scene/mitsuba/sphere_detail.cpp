@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/scene/mitsuba/shape_mesh.h"
 
@@ -18,24 +19,33 @@ double mean_radius(const Object& sphere) {
     return std::cbrt(std::abs(linear_determinant(sphere.transform("to_world") * sphere_placement(sphere))));
 }
 
-// Of a shape that lies in `depth` merges. Groups hold plain shapes only.
-void collect_radii(const Object& shape, uint depth, std::vector<double>& radii) {
-    if (shape.type == "sphere") {
-        radii.push_back(mean_radius(shape));
-    } else if (shape.type == "merge" && depth < kMaxMergeDepth) {
-        for (const Object* part : shape.nested("shape")) {
-            collect_radii(*part, depth + 1, radii);
-        }
-    } else if (shape.type == "instance") {
-        for (const Object* group : shape.nested("shape")) {
-            for (const Object* part : group->nested("shape")) {
-                if (part->type == "sphere") {
-                    radii.push_back(mean_radius(*part));
-                }
+/// Collects the mean radii of spheres.
+struct RadiusCollector {
+    std::vector<double> radii;
+    std::set<const Object*> merges;  ///< each one counts once, because merges may contain themselves
+
+    /// Of a shape that lies in `depth` merges. Groups hold plain shapes only.
+    void add(const Object& shape, uint depth) {
+        if (shape.type == "sphere") {
+            radii.push_back(mean_radius(shape));
+        } else if (shape.type == "merge" && depth < kMaxMergeDepth && merges.insert(&shape).second) {
+            for (const Object* part : shape.nested("shape")) {
+                add(*part, depth + 1);
+            }
+        } else if (shape.type == "instance") {
+            for (const Object* group : shape.nested("shape")) {
+                add_group(*group);
             }
         }
     }
-}
+    void add_group(const Object& group) {
+        for (const Object* part : group.nested("shape")) {
+            if (part->type == "sphere") {
+                radii.push_back(mean_radius(*part));
+            }
+        }
+    }
+};
 
 }  // namespace
 
@@ -46,10 +56,11 @@ Mat4 sphere_placement(const Object& sphere) {
 }
 
 SphereDetail::SphereDetail(const std::vector<const Object*>& shapes) {
-    std::vector<double> radii;
+    RadiusCollector collector;
     for (const Object* shape : shapes) {
-        collect_radii(*shape, 0, radii);
+        collector.add(*shape, 0);
     }
+    const std::vector<double>& radii = collector.radii;
     is_reduced_ = static_cast<double>(radii.size() * sphere_triangle_count(kFinestStacks)) > kMaxTriangles;
     for (const double radius : radii) {
         radii_ += radius;

@@ -2,7 +2,6 @@
 #include "host/scene/mitsuba/texture_maker.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -121,25 +120,16 @@ bool is_bitmap(const Object& texture) {
 /// The files of the bitmaps that lie within these objects, in their order.
 std::vector<ImageSource> bitmaps_within(const std::vector<const Object*>& objects) {
     std::vector<ImageSource> files;
-    std::set<const Object*> seen;
-    std::vector<const Object*> coming(objects.rbegin(), objects.rend());
-    while (!coming.empty()) {
-        const Object* const object = coming.back();
-        coming.pop_back();
-        if (object == nullptr || !seen.insert(object).second) {
-            continue;
-        }
-        const Property* const file = object->find("filename");
-        if (is_bitmap(*object) && file != nullptr && std::holds_alternative<std::string>(file->value)) {
+    visit_all(objects, [&](const Object& object) {
+        const Property* const file = object.find("filename");
+        if (is_bitmap(object) && file != nullptr && std::holds_alternative<std::string>(file->value)) {
             files.push_back({.file = std::get<std::string>(file->value)});
         }
-        for (auto child = object->children.rbegin(); child != object->children.rend(); ++child) {
-            coming.push_back(child->object);
-        }
-    }
+    });
     return files;
 }
 
+constexpr int kMaxDepth = 64;  // of textures that change others
 constexpr const char* kKnownTextures = "bitmap, checkerboard, mesh_attribute, scale";
 
 }  // namespace
@@ -232,7 +222,12 @@ void TextureMaker::expect(const std::vector<const Object*>& shapes) {
 Parameter TextureMaker::make(const Object& texture, Purpose purpose) {
     const auto [entry, is_new] = made_.try_emplace({&texture, purpose}, parameter_of(kMissing));
     if (is_new) {  // a texture that contains itself finds grey
+        if (depth_ >= kMaxDepth) {
+            fail(texture.where, "more than " + std::to_string(kMaxDepth) + " textures lie within each other");
+        }
+        ++depth_;
         entry->second = make_new(texture, purpose);
+        --depth_;
         texture.report_unused(notes_);
     }
     return entry->second;
@@ -292,7 +287,7 @@ Parameter TextureMaker::make_checkerboard(const Object& texture, Purpose purpose
     made.parameters.kind = NEARLIGHT_TEXTURE_CHECKERBOARD;
     made.parameters.color0 = field(texture, "color0", 0.4f, purpose);
     made.parameters.color1 = field(texture, "color1", 0.2f, purpose);
-    if (purpose == Purpose::number) {
+    if (purpose == Purpose::number && !texture.is_old) {
         // Mitsuba 3 exchanges the fields where it looks a number up.
         std::swap(made.parameters.color0, made.parameters.color1);
     }

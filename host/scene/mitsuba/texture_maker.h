@@ -67,6 +67,7 @@ class TextureMaker {
     NoteSink& notes_;
     TextureLoader loader_;
     std::map<std::pair<const Object*, Purpose>, Parameter> made_;
+    int depth_ = 0;  ///< of the texture that is being made, within others
 };
 
 }  // namespace nearlight::core::mitsuba

@@ -10,8 +10,8 @@
 
 namespace nearlight::core {
 
-/// The images of the textures that most entries use, in the order of the materials. `owners` are the libraries
-/// that have the entries of these names; null: nothing defines the material.
+/// The images of the textures that most entries use, in the order of the materials. `owners` are the
+/// libraries that have the entries of these names; null: nothing defines the material.
 std::vector<ImageSource> images_of(const std::vector<std::string>& names,
                                    const std::vector<const MaterialLibrary*>& owners);
 

@@ -129,6 +129,9 @@ class ObjMaterials {
         if (source.entry.illum == 5) {
             approximate(source, "a reflecting material (illum 5) mirrors the same at all angles");
         }
+        if (!source.entry.specular_texname.empty()) {
+            approximate(source, "textures of the colour (map_Ks) of mirrors (illum 3 and 5) are left out");
+        }
         const Vec3 mirrored = clamped(to_vec3(source.entry.specular));
         const float weight = max_component(mirrored);
         Material base = diffuse(source);
