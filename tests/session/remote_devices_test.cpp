@@ -52,7 +52,7 @@ class OtherSession {
     [[nodiscard]] RemoteDevices devices(std::size_t count) {
         RemoteDevices remote{
             .devices = {},
-            .show = [this](const Picture& picture, std::span<const Vpl> vpls) { return show(picture, vpls); },
+            .show = [this](const PictureTask& picture, std::span<const Vpl> vpls) { return show(picture, vpls); },
             .order =
                 [this](PictureNumber picture, std::size_t device, uint band) {
                     const std::lock_guard lock(mutex_);
@@ -74,15 +74,15 @@ class OtherSession {
 
   private:
     struct Shown {
-        Picture picture;
+        PictureTask picture;
         VplBuffer vpls;
         BandMaker make{};
     };
 
-    PictureNumber show(const Picture& picture, std::span<const Vpl> vpls) {
+    PictureNumber show(const PictureTask& picture, std::span<const Vpl> vpls) {
         const std::lock_guard lock(mutex_);
         auto shown = std::make_unique<Shown>(Shown{{}, VplBuffer(std::vector(vpls.begin(), vpls.end()))});
-        std::memcpy(static_cast<void*>(&shown->picture), &picture, sizeof(Picture));
+        std::memcpy(static_cast<void*>(&shown->picture), &picture, sizeof(PictureTask));
         pictures_[++shown_] = std::move(shown);
         changed_.notify_all();
         return shown_;
