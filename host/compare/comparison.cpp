@@ -164,12 +164,13 @@ class SceneRun {
     const CompareObserver& observer_;
 };
 
-void require_indirect_light(const SceneFacts& facts, const Reference& reference) {
-    if (std::ranges::all_of(reference.picture.values, [](float value) { return value == 0.0f; })) {
-        throw Error(ErrorKind::file,
-                    "scene '" + facts.name + "' (" + facts.source +
-                        "): no indirect light reaches the camera, so there is nothing to compare");
-    }
+bool has_light(const Reference& reference) {
+    return std::ranges::any_of(reference.picture.values, [](float value) { return value != 0.0f; });
+}
+
+std::string nothing_to_compare(const SceneFacts& facts) {
+    return "scene '" + facts.name + "' (" + facts.source +
+           "): no indirect light reaches the camera, so there is nothing to compare";
 }
 
 }  // namespace
@@ -199,6 +200,7 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     const std::vector<std::string> names = unique_names(scenes);
     const auto reference_files = assign_reference_files(scenes, settings);
     make_folder(settings.output);
+    std::vector<std::string> dark;  // what was said of scenes that are left out
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const std::string label =
             names[i] + (scenes.size() > 1 ? fmt::format(" ({} of {})", i + 1, scenes.size()) : "");
@@ -210,7 +212,13 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
         if (!reference) {
             return std::nullopt;
         }
-        require_indirect_light(bench.facts(), *reference);
+        if (!has_light(*reference)) {
+            dark.push_back(nothing_to_compare(bench.facts()));
+            if (scenes.size() > 1) {
+                say_warning(dark.back());
+            }
+            continue;
+        }
         const CellStore store = run.cell_store(*reference);
         observer.begin(label + ": measuring");
         const std::optional<std::vector<Cell>> cells = run.measure(*reference, store, comparison);
@@ -227,6 +235,9 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
             say_warning("scene '" + scene.facts.name + "': " + remark);
         }
         comparison.scenes.push_back(std::move(scene));
+    }
+    if (comparison.scenes.empty() && !dark.empty()) {
+        throw Error(ErrorKind::file, dark.back());
     }
     return comparison;
 }
