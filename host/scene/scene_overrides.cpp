@@ -128,6 +128,10 @@ void apply_environment(Scene& scene, const SceneOverrides& overrides, NoteSink& 
         }
         light = own;
     }
+    const bool changes = overrides.environment_scale != 1.0 || overrides.environment_rotation != 0.0;
+    if (light.width == 0 && changes) {
+        notes.remark(scene.source, 0, "the scene has no environment that could be scaled or turned");
+    }
     const auto scale = static_cast<float>(overrides.environment_scale);
     for (Vec3& radiance : light.radiance) {
         radiance *= scale;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "host/image/image_io.h"
@@ -42,6 +43,21 @@ TEST_F(Overrides, NothingChangesWithoutThem) {
     const Scene scene = load({});
     EXPECT_EQ(scene_hash(scene), scene_hash(files_.load_xml(kScene)));
     EXPECT_FALSE(scene.has_open_exposure);
+}
+
+TEST_F(Overrides, AnEnvironmentThatIsNotThereCannotBeScaled) {
+    const std::string lamp =
+        "<shape type='rectangle'><emitter type='area'><rgb name='radiance' value='1'/></emitter></shape>";
+    const auto tells = [&](const SceneOverrides& overrides, const std::string& content) {
+        const Scene scene = load(overrides, content);
+        return std::ranges::any_of(scene.notes, [](const Note& note) {
+            return note.text == "the scene has no environment that could be scaled or turned";
+        });
+    };
+    EXPECT_TRUE(tells({.environment_scale = 2}, lamp));
+    EXPECT_TRUE(tells({.environment_rotation = 20}, lamp));
+    EXPECT_FALSE(tells({}, lamp));
+    EXPECT_FALSE(tells({.environment_scale = 2}, kScene));
 }
 
 TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
