@@ -48,10 +48,11 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
             best = known;
         }
     }
-    if (best.empty() && word.size() >= kMinBeginning) {
+    const bool is_far = best.empty() || best_distance > 1;
+    if (is_far && word.size() >= kMinBeginning) {
         const auto begins = [&](const std::string& known) { return known.starts_with(word); };
         const auto longer = std::ranges::find_if(words, begins);
-        best = longer == words.end() ? "" : *longer;
+        best = longer == words.end() ? best : *longer;
     }
     return best;
 }

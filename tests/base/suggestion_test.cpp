@@ -30,6 +30,10 @@ TEST(Suggestion, NearestWord) {
     const std::vector<std::string> far{"--version", "--environment", "--environment-scale"};
     EXPECT_EQ(nearest_word("--env", far), "--environment");
     EXPECT_EQ(nearest_word("-", far), "");
+    const std::vector<std::string> options{"--up", "--output", "--time", "--tonemap"};
+    EXPECT_EQ(nearest_word("--out", options), "--output");
+    EXPECT_EQ(nearest_word("--tone", options), "--tonemap");
+    EXPECT_EQ(nearest_word("--tme", options), "--time");
 }
 
 }  // namespace
