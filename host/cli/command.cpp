@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -75,18 +76,25 @@ std::string full_name(const CLI::App& command) {
     return (parent != nullptr ? full_name(*parent) + " " : std::string()) + command.get_name();
 }
 
-/// What the parser says of an option without its value begins with the option, and ends with what it takes:
-/// "--size: 1 required WxH missing".
-std::string describe_mismatch(const std::string& text) {
-    constexpr std::string_view kMiddle = ": 1 required ";
-    constexpr std::string_view kEnd = " missing";
-    const std::size_t middle = text.find(kMiddle);
-    if (middle == std::string::npos || !text.ends_with(kEnd)) {
+/// What is said instead of what the parser says.
+std::string reworded(const std::string& text) {
+    constexpr std::size_t kMaxLength = 1000;  // std::regex goes one call deeper with each letter
+    if (text.size() > kMaxLength) {
         return text;
     }
-    const std::size_t begin = middle + kMiddle.size();
-    return text.substr(0, middle) + " needs a value, " +
-           text.substr(begin, text.size() - kEnd.size() - begin);
+    const std::pair<std::regex, const char*> kWordings[] = {
+        {std::regex("(.*): 1 required (.*) missing"), "$1 needs a value, $2"},
+        {std::regex("(.*): At Most 1 required but received (.*)"), "$1 is given $2 times; give it once"},
+        {std::regex("(.*): Value (.*) not in range ([0-9]+) to ([0-9]+)"),
+         "$1: '$2' is no whole number from $3 to $4"},
+        {std::regex("(.*): Value (.*) not in range (.*) to (.*)"), "$1: '$2' is no number from $3 to $4"},
+        {std::regex("Could not convert: (.*) = (.*)"), "$1: '$2' is no value that it takes"}};
+    for (const auto& [pattern, wording] : kWordings) {
+        if (std::regex_match(text, pattern)) {
+            return std::regex_replace(text, pattern, wording);
+        }
+    }
+    return text;
 }
 
 /// Describes what is wrong with the line. An unknown word comes first, because it often causes the other
@@ -109,7 +117,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
     if (!extras.empty()) {
         return "unexpected argument '" + extras.front() + "'";
     }
-    return describe_mismatch(error.what());
+    return reworded(error.what());
 }
 
 /// The line with which the program was called.

@@ -105,6 +105,12 @@ TEST(CommandLine, WrongLinesAreUsageErrors) {
     expect_error(run_program("render a.xml --size"), 2,
                  "--size needs a value, WxH; see 'nearlight render --help'");
     expect_error(run_program("diff a b --quiet --verbose"), 2, "contradict");
+    expect_error(run_program("render a.xml --spp 4.5"), 2,
+                 "--spp: '4.5' is no whole number from 1 to 65536; see");
+    expect_error(run_program("render a.xml --seed -1"), 2, "--seed: '-1' is no value that it takes; see");
+    expect_error(run_program("render a.xml --size 8x8 --size 9x9"), 2,
+                 "--size is given 2 times; give it once; see");
+    expect_error(run_program("render a.xml --spp " + std::string(100000, '9')), 2, "--spp");
 }
 
 TEST(CommandLine, AFileAloneGetsTheCommandThatRendersIt) {
