@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/thread_limit.h"
 
+#include <algorithm>
+
 #ifndef NEARLIGHT_SERIAL
 #include <tbb/global_control.h>
 #endif
@@ -23,6 +25,11 @@ int allowed_threads() {
     return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 #endif
+
+std::size_t files_ahead(int most) {
+    const int allowed = allowed_threads();
+    return allowed == 1 ? 0 : static_cast<std::size_t>(std::min(allowed, most));
+}
 
 ThreadLimit::ThreadLimit(int threads) {
 #ifndef NEARLIGHT_SERIAL

@@ -22,5 +22,8 @@ class ThreadLimit {
 
 /// The number of threads that may run now.
 int allowed_threads();
+/// How many files other threads may read ahead of the caller, at most `most`. With one thread allowed it is
+/// none: then the caller reads each file itself when its turn comes.
+std::size_t files_ahead(int most);
 
 }  // namespace nearlight::core

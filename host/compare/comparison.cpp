@@ -200,7 +200,7 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     const std::vector<std::string> names = unique_names(scenes);
     const auto reference_files = assign_reference_files(scenes, settings);
     make_folder(settings.output);
-    std::vector<std::string> dark;  // what was said of scenes that are left out
+    std::string left_out;  // what is said of the last scene that is left out
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const std::string label =
             names[i] + (scenes.size() > 1 ? fmt::format(" ({} of {})", i + 1, scenes.size()) : "");
@@ -213,9 +213,9 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
             return std::nullopt;
         }
         if (!has_light(*reference)) {
-            dark.push_back(nothing_to_compare(bench.facts()));
+            left_out = nothing_to_compare(bench.facts());
             if (scenes.size() > 1) {
-                say_warning(dark.back());
+                say_warning(left_out);
             }
             continue;
         }
@@ -236,8 +236,8 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
         }
         comparison.scenes.push_back(std::move(scene));
     }
-    if (comparison.scenes.empty() && !dark.empty()) {
-        throw Error(ErrorKind::file, dark.back());
+    if (comparison.scenes.empty() && !left_out.empty()) {
+        throw Error(ErrorKind::file, left_out);
     }
     return comparison;
 }

@@ -40,9 +40,7 @@ const Image& ImageReader::read(const ImageSource& source) {
 }
 
 void ImageReader::read_ahead() {
-    // With one thread allowed, the caller reads each file itself when its turn comes.
-    const int allowed = allowed_threads();
-    const std::size_t most = allowed == 1 ? 0 : static_cast<std::size_t>(std::min(allowed, kMaxAhead));
+    const std::size_t most = files_ahead(kMaxAhead);
     while (!expected_.empty() && ahead_.size() < most) {
         try {
             ahead_.push_back(

@@ -63,10 +63,7 @@ int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const s
     try {
         pixels = &reader_.read(image);
     } catch (const Error& error) {
-        throw_unless_file(error);
-        notes_.approximation(
-            file, line,
-            std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
+        note_unreadable_texture(error, file, line, notes_);
         return -1;
     }
     entry->second =
@@ -99,10 +96,14 @@ int TextureLoader::add_texels(const Image& image, const std::string& name, const
     return static_cast<int>(scene_.images.size() - 1);
 }
 
-void throw_unless_file(const Error& error) {
+void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line,
+                             NoteSink& notes) {
     if (error.kind() != ErrorKind::file) {
         throw error;
     }
+    notes.approximation(
+        file, line,
+        std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
 }
 
 SceneTexture plain_texture(int image) {

@@ -46,9 +46,11 @@ class TextureLoader {
     std::map<Key, int> loaded_;
 };
 
-/// Throws the error on unless it is that of a broken file, which a note reports. Any other cause (a missing
-/// image module, memory) would make a wrong picture of every scene.
-void throw_unless_file(const Error& error);
+/// Notes at file:line that a texture is mid-grey because `error` kept its image from being read. Throws the
+/// error on unless it is that of a broken file: any other cause (a missing image module, memory) would make a
+/// wrong picture of every scene.
+void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line,
+                             NoteSink& notes);
 /// A bitmap texture of an image in Scene::images, without a placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
 /// A texture of the vertices' own colours.

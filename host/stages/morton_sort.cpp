@@ -2,7 +2,6 @@
 #include "host/stages/morton_sort.h"
 
 #include "host/stages/joint_programs.h"
-#include "host/stages/runs.h"
 
 namespace nearlight::core {
 namespace {
@@ -29,11 +28,11 @@ MortonSort::MortonSort(Device& device)
       scatter_(program_, "sort_scatter"),
       scan_(device) {}
 
-MortonSort::BoundsRun MortonSort::begin_bounds(std::size_t count) {
+Runs MortonSort::begin_bounds(std::size_t count) {
     to_kernel_count(count, "points");
     const Runs runs = split_into_runs(*device_, count);
     ensure_room(boxes_, *device_, std::max(runs.count, 1u));
-    return {runs.size, runs.count, run_local_size(*device_)};
+    return runs;
 }
 
 Aabb MortonSort::finish_bounds(uint run_count) const {

@@ -6,6 +6,7 @@
 #include "host/cl/buffer.h"
 #include "host/cl/kernel.h"
 #include "host/stages/prefix_scan.h"
+#include "host/stages/runs.h"
 #include "kernels/shared/morton.h"
 #include "kernels/shared/types.h"
 
@@ -30,10 +31,10 @@ class MortonSort {
     /// The bounding box of the finite positions; it is empty if there are none. Waits for the device.
     template <typename T>
     Aabb bounds(const Buffer<T>& elements, std::size_t count) {
-        const BoundsRun run = begin_bounds(count);
-        bounds_.launch(run.run_count, run.local_size, elements, boxes_, stride_of<T>(),
-                       static_cast<uint>(count), run.run_size, run.run_count);
-        return finish_bounds(run.run_count);
+        const Runs runs = begin_bounds(count);
+        bounds_.launch(runs.count, run_local_size(*device_), elements, boxes_, stride_of<T>(),
+                       static_cast<uint>(count), runs.size, runs.count);
+        return finish_bounds(runs.count);
     }
     /// Writes the 30-bit Morton codes of the positions, and values[i] = i. The cells are cubes, and 1024 of
     /// them span the longest side of the box. A position outside the box gets the code of the nearest cell.
@@ -49,16 +50,13 @@ class MortonSort {
     void sort(Buffer<uint>& keys, Buffer<uint>& values, std::size_t count);
 
   private:
-    struct BoundsRun {
-        uint run_size, run_count;
-        std::size_t local_size;
-    };
     template <typename T>
     static uint stride_of() {
         static_assert(sizeof(T) % sizeof(float) == 0 && sizeof(T) >= sizeof(Vec3));
         return static_cast<uint>(sizeof(T) / sizeof(float));
     }
-    BoundsRun begin_bounds(std::size_t count);
+    /// The runs of so many positions, for whose boxes it makes room.
+    Runs begin_bounds(std::size_t count);
     Aabb finish_bounds(uint run_count) const;
 
     Device* device_;

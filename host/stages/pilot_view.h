@@ -38,10 +38,9 @@ struct PilotView {
     Buffer<ReceiverPacket> receivers;
     uint packet_count = 0;
     Importons importons;
-    Importons
-        few_squared_importons;  ///< few of the importons, evenly spread, for ContributionNorm::error_of_draw
-    ImportonGroups importon_groups;  ///< some of the importons, by parts of the picture
-    std::vector<float> distances;    ///< between camera and receivers, ascending, m; empty: nothing in view
+    Importons few_squared_importons;  ///< few of them, evenly spread, for ContributionNorm::error_of_draw
+    ImportonGroups importon_groups;   ///< some of the importons, by parts of the picture
+    std::vector<float> distances;     ///< between camera and receivers, ascending, m; empty: nothing in view
 
     [[nodiscard]] bool is_on(const Device& other) const { return device == &other; }
     [[nodiscard]] const Importons& importons_of(ContributionNorm norm) const;

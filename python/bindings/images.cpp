@@ -165,6 +165,17 @@ void add_image_class(py::module_& module) {
         .def("__repr__", [](const Image& image) { return text_of(image); });
 }
 
+void add_reader(py::module_& module, const char* name, Image (*read)(const std::filesystem::path&),
+                const char* help) {
+    module.def(
+        name,
+        [read](const py::object& file) {
+            const std::filesystem::path path = to_path(file);
+            return std::make_shared<Image>(without_gil([&] { return read(path); }));
+        },
+        py::arg("file"), help);
+}
+
 }  // namespace
 
 void add_images(py::module_& module) {
@@ -179,25 +190,13 @@ void add_images(py::module_& module) {
         .def_readonly("non_finite", &Difference::non_finite,
                       "pixels that are left out: NaN or infinity in either")
         .def("__repr__", [](const Difference& difference) { return text_of(difference); });
-    module.def(
-        "read_image",
-        [](const py::object& file) {
-            const std::filesystem::path path = to_path(file);
-            return std::make_shared<Image>(without_gil([&] { return read_image(path); }));
-        },
-        py::arg("file"),
-        "read_image(file)\n--\n\n"
-        "Reads EXR, PNG, JPEG and whatever else OpenImageIO knows, with the values of the file.");
-    module.def(
-        "read_linear_image",
-        [](const py::object& file) {
-            const std::filesystem::path path = to_path(file);
-            return std::make_shared<Image>(without_gil([&] { return read_linear_image(path); }));
-        },
-        py::arg("file"),
-        "read_linear_image(file)\n--\n\n"
-        "Reads a picture with linear values, as renders have them: the sRGB curve of PNG and JPEG is "
-        "removed.");
+    add_reader(module, "read_image", read_image,
+               "read_image(file)\n--\n\n"
+               "Reads EXR, PNG, JPEG and whatever else OpenImageIO knows, with the values of the file.");
+    add_reader(module, "read_linear_image", read_linear_image,
+               "read_linear_image(file)\n--\n\n"
+               "Reads a picture with linear values, as renders have them: the sRGB curve of PNG and JPEG is "
+               "removed.");
     module.def(
         "diff",
         [](const SharedImage& image, const SharedImage& reference, const std::string& layer) {

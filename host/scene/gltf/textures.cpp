@@ -121,8 +121,8 @@ std::vector<ImageSource> TextureMaker::shown_images() const {
         }
         try {
             sources.push_back(source_of(file_, file_.model.images[index]));
-        } catch (const Error& error) {
-            throw_unless_file(error);
+        } catch (const Error&) {
+            continue;
         }
     }
     return sources;
@@ -133,10 +133,7 @@ int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule
     try {
         source = source_of(file_, image);
     } catch (const Error& error) {
-        throw_unless_file(error);
-        notes_.approximation(
-            file_.path, 0,
-            std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
+        note_unreadable_texture(error, file_.path, 0, notes_);
         return -1;
     }
     return loader_.load(*source, rule, file_.path, 0);

@@ -67,9 +67,7 @@ bool can_be_ahead(const Object& shape) {
 }  // namespace
 
 void MeshReader::read_ahead() {
-    // With one thread allowed, the caller reads each file itself when its turn comes.
-    const int allowed = allowed_threads();
-    const std::size_t most = allowed == 1 ? 0 : static_cast<std::size_t>(std::min(allowed, kMaxAhead));
+    const std::size_t most = files_ahead(kMaxAhead);
     while (!coming_.empty() && ahead_.size() < most) {
         const Object* const shape = coming_.front();
         coming_.pop_front();
