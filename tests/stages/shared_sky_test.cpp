@@ -79,14 +79,14 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
     const CloseRange region = make_close_range(camera, 1.0f);
     const Buffer<Camera> cameras(device, std::span(&camera, 1));
     const Buffer<CloseRange> regions(device, std::span(&region, 1));
-    const CameraBatch batch{.tile_row_count = tiles_across(static_cast<uint>(kSide)),
-                            .branch_count = 2,
-                            .bundle_columns = 2,
-                            .bundle_rows = 2,
-                            .max_depth = 4,
-                            .light_rays = search.rays,
-                            .sky_rays = search.shared ? search.rays : 0};
-    const std::size_t packets = packet_count(batch, static_cast<uint>(kSide));
+    const CameraBatch camera_batch{.tile_row_count = tiles_across(static_cast<uint>(kSide)),
+                                   .branch_count = 2,
+                                   .bundle_columns = 2,
+                                   .bundle_rows = 2,
+                                   .max_depth = 4,
+                                   .light_rays = search.rays,
+                                   .sky_rays = search.shared ? search.rays : 0};
+    const std::size_t packets = packet_count(camera_batch, static_cast<uint>(kSide));
     const std::size_t count = packets * NEARLIGHT_PACKET_SIZE;
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, count);
@@ -106,7 +106,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
                                             .clamp_radius = 0.1f,
                                             .seed = 50u + static_cast<uint>(seed),
                                             .shares_sky = true};
-        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, batch, settings.seed},
+        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, camera_batch, settings.seed},
                         {receivers, vertices, &seen});
         const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
