@@ -15,9 +15,10 @@
 // surfaces is part of L. Lobes that are narrow beside the neighbourhood of a receiver are left to its own
 // rays (shares_gloss); that depends on x and y alone, so nothing is missed or counted twice.
 //
-// shared_reflection_gather: one work-item for each bundle adds to the irradiance of its receivers. The lists
-// are those of shared_lights.cl. Any work-group size.
+// shared_reflection_gather: one work-group for each bundle adds to the irradiance of its receivers, which its
+// work-items divide. The lists are those of shared_lights.cl. Any work-group size.
 
+#include "lib/bundle_light.cl"
 #include "lib/outlined.cl"
 #include "lib/shared_reflection.cl"
 
@@ -37,42 +38,49 @@ typedef struct ReflectionEntry {
     const global uint* seen_by;  // the bits of its receivers
 } ReflectionEntry;
 
-/// What a reflection brings to the receivers of a bundle.
-typedef struct Reflected {
-    float3 irradiance[BUNDLE_RECEIVERS];  // for a radiance of 1, times p(y, ω)
-    float of_places;                      // Σ_s G·V over all receivers that see y
-    float of_paths;                       // Σ_s G·V·(p_L + p_S) over those that share its light
-} Reflected;
+/// The first receiver that sees an entry, or BUNDLE_RECEIVERS.
+static inline uint first_viewer(const ReflectionEntry* entry) {
+    uint lane = 0;
+    while (lane < BUNDLE_RECEIVERS && !is_seen_by(entry->seen_by, lane)) {
+        ++lane;
+    }
+    return lane;
+}
 
-/// Finds what one reflection brings. All receivers that see it are on the same side of the surface, so that
-/// the first of them resolves it for all.
-OUTLINED_ON_CPU void reflect_to_all(const SceneView* scene, const ReflectionEntry* entry, Reflected* to) {
+static inline float3 position_in_bundle(const global ReceiverPacket* packets, uint lane) {
+    return receiver_position(packets + lane / NEARLIGHT_PACKET_SIZE, lane % NEARLIGHT_PACKET_SIZE);
+}
+
+/// Finds what one reflection brings to the receivers `lane`, lane + step, … of the bundle. All receivers that
+/// see it are on the same side of the surface, so that the first of them resolves it for all.
+OUTLINED_ON_CPU void reflect_to(const SceneView* scene, const ReflectionEntry* entry, uint lane, uint step,
+                                const BundleLight* to) {
     const float3 y = load3(entry->light->position);
     const float3 wi = load3(entry->at->arriving);
     const float light_pdf = entry->at->light_pdf;
+    const uint viewer = first_viewer(entry);
     SurfaceBsdf surface;
-    float width = -1.0f;  // not known yet
-    to->of_places = to->of_paths = 0.0f;
-    for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
-        to->irradiance[lane] = (float3)(0.0f);
+    float width = 0.0f;
+    if (viewer < BUNDLE_RECEIVERS) {
+        const float3 wo = normalize(position_in_bundle(entry->packets, viewer) - y);
+        surface = resolve_reflecting(scene, entry->at, wo);
+        width = gloss_width(&surface.bsdf);
+    }
+    for (; lane < BUNDLE_RECEIVERS; lane += step) {
+        bring_nothing(to, lane);
         if (!is_seen_by(entry->seen_by, lane)) {
             continue;
         }
         const global ReceiverPacket* packet = entry->packets + lane / NEARLIGHT_PACKET_SIZE;
         const uint i = lane % NEARLIGHT_PACKET_SIZE;
-        const float3 x = receiver_position(packet, i);
+        const float3 x = position_in_bundle(entry->packets, lane);
         const SharedConnection c = connect_shared(entry->light, x, receiver_normal(packet, i), INFINITY);
-        to->of_places += c.geometry;
-        const float3 wo = normalize(x - y);
-        if (width < 0.0f) {
-            surface = resolve_reflecting(scene, entry->at, wo);
-            width = gloss_width(&surface.bsdf);
-        }
+        to->geometry[lane] = c.geometry;
         if (shares_gloss(x, y, width, entry->spacing[lane])) {
-            surface.wo = wo;
+            surface.wo = normalize(x - y);
             float pdf;
             const float3 value = bsdf_eval(scene, &surface, wi, BSDF_S, &pdf);
-            to->of_paths += c.geometry * (light_pdf < 0.0f ? -light_pdf : light_pdf + pdf);
+            to->density[lane] = c.geometry * (light_pdf < 0.0f ? -light_pdf : light_pdf + pdf);
             to->irradiance[lane] =
                 value * (c.geometry * curve_value(scene->curves, receiver_curve(packet, i), c.cos_receiver));
         }
@@ -85,28 +93,22 @@ kernel void shared_reflection_gather(SCENE_PARAMETERS, const global ReceiverPack
                                      const global float* restrict spacing, const global uint* restrict listed,
                                      const global float* restrict factors,
                                      const global uint* restrict lengths, const global uint* restrict seen_by,
-                                     global IrradiancePacket* restrict irradiance) {
-    const uint index = (uint)get_global_id(0);
+                                     global IrradiancePacket* restrict irradiance, BUNDLE_LIGHT_PARAMETERS) {
+    const uint index = (uint)get_group_id(0);
+    const uint item = (uint)get_local_id(0);
+    const uint items = (uint)get_local_size(0);
     const Bundle bundle = bundle_at(index, packet_count);
-    if (bundle.count == 0) {
-        return;
-    }
     const SceneView scene = SCENE_VIEW;
+    const BundleLight brought = BUNDLE_LIGHT;
     const uint first = index * NEARLIGHT_SHARED_LIST;
-    Reflected reflected;
     for (uint i = first; i < first + lengths[index]; ++i) {
         const ReflectionEntry entry = {receivers + bundle.first,
                                        spacing + bundle.first * NEARLIGHT_PACKET_SIZE, found + listed[i],
                                        reflections + listed[i], seen_by + i * BUNDLE_WORDS};
-        reflect_to_all(&scene, &entry, &reflected);
-        if (!(reflected.of_paths > 0.0f)) {
-            continue;
-        }
-        const float3 radiance =
-            load3(entry.light->radiance) * (factors[i] * reflected.of_places / reflected.of_paths);
-        for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
-            add_irradiance_to(irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE,
-                              lane % NEARLIGHT_PACKET_SIZE, radiance * reflected.irradiance[lane]);
-        }
+        reflect_to(&scene, &entry, item, items, &brought);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        add_bundle_light(&brought, load3(entry.light->radiance) * factors[i], &bundle, item, items,
+                         irradiance);
+        barrier(CLK_LOCAL_MEM_FENCE);
     }
 }

@@ -12,28 +12,23 @@
 // through, so that p follows from places alone. V is 1 where nothing but veils is in the way, as many as the
 // ray passed that found y: then the light comes over as many edges to all receivers.
 //
-// shared_veiled_gather: one work-item for each bundle adds to the irradiance of its receivers. The lists are
-// those of shared_lights.cl, with visibility past solid surfaces. Any work-group size.
+// shared_veiled_gather: one work-group for each bundle adds to the irradiance of its receivers, which its
+// work-items divide. The lists are those of shared_lights.cl, with visibility past solid surfaces. Any
+// work-group size.
 
+#include "lib/bundle_light.cl"
 #include "lib/light/shadow.cl"
 #include "lib/outlined.cl"
-#include "lib/shared_light.cl"
 
-/// What one light brings to the receivers of a bundle.
-typedef struct Veiled {
-    float3 irradiance[BUNDLE_RECEIVERS];  // for a radiance of 1, times p(y)
-    float past_solids;                    // Σ_s G over the receivers that no solid surface hides
-    float past_veils;                     // the same over those behind as many veils as the light's finder
-} Veiled;
-
-/// `packets` are those of the bundle, and `seen_by` has the bits of its receivers.
-OUTLINED_ON_CPU void light_all(const SceneView* scene, const SceneView* veils,
-                               const global ReceiverPacket* packets, const global SharedLight* light,
-                               const global uint* seen_by, Veiled* to) {
+/// Lights the receivers `lane`, lane + step, … of a bundle. `packets` are its packets, and `seen_by` has the
+/// bits of its receivers.
+OUTLINED_ON_CPU void light_receivers(const SceneView* scene, const SceneView* veils,
+                                     const global ReceiverPacket* packets, const global SharedLight* light,
+                                     const global uint* seen_by, uint lane, uint step,
+                                     const BundleLight* to) {
     const float3 y = load3(light->position);
-    to->past_solids = to->past_veils = 0.0f;
-    for (uint lane = 0; lane < BUNDLE_RECEIVERS; ++lane) {
-        to->irradiance[lane] = (float3)(0.0f);
+    for (; lane < BUNDLE_RECEIVERS; lane += step) {
+        bring_nothing(to, lane);
         if (!is_seen_by(seen_by, lane)) {
             continue;
         }
@@ -41,10 +36,10 @@ OUTLINED_ON_CPU void light_all(const SceneView* scene, const SceneView* veils,
         const uint i = lane % NEARLIGHT_PACKET_SIZE;
         const float3 x = receiver_position(packet, i);
         const SharedConnection c = connect_shared(light, x, receiver_normal(packet, i), INFINITY);
-        to->past_solids += c.geometry;
+        to->geometry[lane] = c.geometry;
         const Veiling veiling = veiling_between(veils, x, y);
         if (veiling.count == light->veils) {
-            to->past_veils += c.geometry;
+            to->density[lane] = c.geometry;
             const float transmission = curve_value(scene->curves, light->curve, c.cos_light) *
                                        curve_value(scene->curves, receiver_curve(packet, i), c.cos_receiver);
             to->irradiance[lane] = veiling.part * (c.geometry * transmission);
@@ -57,27 +52,21 @@ kernel void shared_veiled_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
                                  const global SharedLight* restrict found, const global uint* restrict listed,
                                  const global float* restrict factors, const global uint* restrict lengths,
                                  const global uint* restrict seen_by,
-                                 global IrradiancePacket* restrict irradiance) {
-    const uint index = (uint)get_global_id(0);
+                                 global IrradiancePacket* restrict irradiance, BUNDLE_LIGHT_PARAMETERS) {
+    const uint index = (uint)get_group_id(0);
+    const uint item = (uint)get_local_id(0);
+    const uint items = (uint)get_local_size(0);
     const Bundle bundle = bundle_at(index, packet_count);
-    if (bundle.count == 0) {
-        return;
-    }
     const SceneView scene = SCENE_VIEW;
     const SceneView veils = VEIL_VIEW(scene);
+    const BundleLight brought = BUNDLE_LIGHT;
     const uint first = index * NEARLIGHT_SHARED_LIST;
-    Veiled veiled;
     for (uint i = first; i < first + lengths[index]; ++i) {
         const global SharedLight* light = found + listed[i];
-        light_all(&scene, &veils, receivers + bundle.first, light, seen_by + i * BUNDLE_WORDS, &veiled);
-        if (!(veiled.past_veils > 0.0f)) {
-            continue;
-        }
-        const float3 radiance =
-            load3(light->radiance) * (factors[i] * veiled.past_solids / veiled.past_veils);
-        for (uint lane = 0; lane < bundle.count * NEARLIGHT_PACKET_SIZE; ++lane) {
-            add_irradiance_to(irradiance + bundle.first + lane / NEARLIGHT_PACKET_SIZE,
-                              lane % NEARLIGHT_PACKET_SIZE, radiance * veiled.irradiance[lane]);
-        }
+        light_receivers(&scene, &veils, receivers + bundle.first, light, seen_by + i * BUNDLE_WORDS, item,
+                        items, &brought);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        add_bundle_light(&brought, load3(light->radiance) * factors[i], &bundle, item, items, irradiance);
+        barrier(CLK_LOCAL_MEM_FENCE);
     }
 }

@@ -13,14 +13,19 @@
 
 namespace nearlight::core {
 
+/// An argument of a kernel that is memory of each work-group, without a value.
+struct LocalMemory {
+    std::size_t bytes;
+};
+
 class Kernel {
   public:
     /// Does not wait for the compiler. The first launch waits, and throws what Program::kernel() throws.
     Kernel(const Program& program, std::string name) : program_(program), name_(std::move(name)) {}
 
     /// Launches `item_count` work-items in work-groups of `local_size`. The last group may exceed
-    /// `item_count`, so the kernel checks its index. Arguments are Buffers, groups of Buffers and plain
-    /// values, in the kernel's order.
+    /// `item_count`, so the kernel checks its index. Arguments are Buffers, LocalMemory, groups of these and
+    /// plain values, in the kernel's order.
     template <typename... Arguments>
     void launch(std::size_t item_count, std::size_t local_size, const Arguments&... arguments) {
         if (item_count == 0) {
@@ -45,6 +50,13 @@ class Kernel {
     void launch_items(std::size_t item_count, const Arguments&... arguments) {
         launch(item_count, program_.device().tunables().local_size, arguments...);
     }
+    /// Launches one work-group for each bundle of receivers, whose work-items divide it among them
+    /// (Tunables::bundle_local_size).
+    template <typename... Arguments>
+    void launch_bundles(std::size_t bundle_count, const Arguments&... arguments) {
+        const std::size_t local_size = program_.device().tunables().bundle_local_size;
+        launch(bundle_count * local_size, local_size, arguments...);
+    }
 
   private:
     template <typename T>
@@ -62,6 +74,9 @@ class Kernel {
     }
     void set_arguments(cl_uint& index, const T& group) {
         group.for_each_buffer([&](const auto& buffer) { set_arguments(index, buffer); });
+    }
+    void set_arguments(cl_uint& index, const LocalMemory& memory) {
+        handle_->setArg(index++, cl::Local(memory.bytes));
     }
     template <typename T>
     void set_arguments(cl_uint& index, const T& value) {

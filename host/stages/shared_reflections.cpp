@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/base/receiver_bundles.h"
+#include "host/stages/bundle_light.h"
 
 namespace nearlight::core {
 
@@ -14,8 +15,9 @@ void SharedReflections::add(const ReceiverBatch& batch, SharedLightLists& lists,
                             Buffer<IrradiancePacket>& irradiance) {
     lists.make(batch, std::numeric_limits<float>::infinity(), found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
     const auto packets = static_cast<uint>(batch.packet_count);
-    gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, batch.receivers, packets,
-                         found.reflected, found.reflections, found.spacing, lists, irradiance);
+    gather_.launch_bundles(BundleLayout{packets}.bundle_count(), batch.scene, batch.receivers, packets,
+                           found.reflected, found.reflections, found.spacing, lists, irradiance,
+                           BundleLight{});
 }
 
 }  // namespace nearlight::core

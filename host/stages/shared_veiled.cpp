@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/base/receiver_bundles.h"
+#include "host/stages/bundle_light.h"
 
 namespace nearlight::core {
 
@@ -15,8 +16,8 @@ void SharedVeiled::add(const ReceiverBatch& batch, SharedLightLists& lists, cons
     lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_VEILED_LIGHTS,
                Hiding::solids);
     const auto packets = static_cast<uint>(batch.packet_count);
-    gather_.launch_items(BundleLayout{packets}.bundle_count(), batch.scene, VeilsForRays{batch.scene},
-                         batch.receivers, packets, found, lists, irradiance);
+    gather_.launch_bundles(BundleLayout{packets}.bundle_count(), batch.scene, VeilsForRays{batch.scene},
+                           batch.receivers, packets, found, lists, irradiance, BundleLight{});
 }
 
 }  // namespace nearlight::core

@@ -81,4 +81,16 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
     return result;
 }
 
+/// Light that the rays of bundles bring, for each receiver, where so many work-items divide a bundle among
+/// them.
+inline std::vector<double> brought_by_items(const Device& shared, std::uint32_t items, const Scene& scene,
+                                            const std::vector<ReceiverPacket>& packets,
+                                            const ReceiverPathSettings& settings) {
+    Device device(shared.entry(), shared.options());
+    Tunables tunables = shared.tunables();
+    tunables.bundle_local_size = items;
+    device.set_tunables(tunables);
+    return brought(device, scene, packets, true, settings, 1).mean;
+}
+
 }  // namespace nearlight::core::test

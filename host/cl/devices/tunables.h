@@ -15,6 +15,7 @@ struct Tunables {
     std::uint32_t beam_width;         ///< receivers that gather_packets takes through the tree together
     std::uint32_t local_size;         ///< work-group size of kernels whose work-items are independent
     std::uint32_t run_local_size;     ///< work-group size of kernels with runs (host/stages/runs.h)
+    std::uint32_t bundle_local_size;  ///< work-items that divide a bundle of receivers among them
     std::uint32_t runs_per_unit;      ///< number of runs per compute unit of the device
     std::uint32_t shortest_run;       ///< minimum number of elements in a run
     std::uint32_t shortest_sort_run;  ///< minimum number of elements in a run that costs a histogram
