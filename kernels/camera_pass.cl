@@ -128,7 +128,9 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                             .path_count = 1,
                             .bundle_rays = 0,
                             .sample = sequence_index(path),
-                            .shared_limit = INFINITY};
+                            .shared_limit = INFINITY,
+                            .aimed_count = 0,
+                            .aim = no_caustic_aim()};
     Finds finds = nothing_shared();
     const ReceivedLight light = received_light(
         scene, &at, &ray, random_uint4((uint4)(path->sequence, max_edges, 0x7ace5u, 0x3u)), &finds);

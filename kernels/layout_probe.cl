@@ -4,6 +4,7 @@
 
 #include "shared/bsdf_query.h"
 #include "shared/camera_pass.h"
+#include "shared/caustic_aims.h"
 #include "shared/film_layers.h"
 #include "shared/layout_facts.h"
 #include "shared/light.h"

@@ -39,7 +39,9 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
                                .path_count = params->path_count,
                                .bundle_rays = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
                                .sample = receiver_sample(receiver, lane),
-                               .shared_limit = params->shared_limit};
+                               .shared_limit = params->shared_limit,
+                               .aimed_count = params->aimed_count,
+                               .aim = no_caustic_aim()};
     return limits;
 }
 
@@ -50,7 +52,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
                            global SharedLight* restrict found_veiled,
                            global SharedLight* restrict found_reflections,
                            global SharedReflection* restrict reflections,
-                           const global float* restrict spacing) {
+                           const global float* restrict spacing, CAUSTIC_PARAMETERS) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -74,7 +76,10 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
         want_finds(&finds, &scene, params.shares, spacing + index);
     }
     if (dot(at.n, at.n) > 0.0f) {
-        const PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
+        PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
+        if (params.aimed_count > 0) {
+            limits.aim = caustic_aim_at(&caustic_table, caustic_cells, caustic_targets, at.x);
+        }
         const uint sequence = receiver->sequence[lane];
         const uint4 key = sequence != 0
                               ? (uint4)(sequence, 0x9e1fu, 0x70a7u, params.seed)

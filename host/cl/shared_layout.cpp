@@ -5,6 +5,7 @@
 
 #include "kernels/shared/bsdf_query.h"
 #include "kernels/shared/camera_pass.h"
+#include "kernels/shared/caustic_aims.h"
 #include "kernels/shared/film_layers.h"
 #include "kernels/shared/layout_facts.h"
 #include "kernels/shared/light.h"

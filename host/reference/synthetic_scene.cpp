@@ -27,29 +27,18 @@ uint add_vertex(Scene& scene, Vec3 position) {
     return static_cast<uint>(scene.vertices.size() - 1);
 }
 
-/// Adds the quadrilateral corner, corner + a, corner + a + b, corner + b, whose front is on the side of a ×
-/// b.
-void add_quad(Scene& scene, Vec3 corner, Vec3 a, Vec3 b, uint material) {
-    const uint first = add_vertex(scene, corner);
-    add_vertex(scene, corner + a);
-    add_vertex(scene, corner + a + b);
-    add_vertex(scene, corner + b);
-    scene.triangles.push_back({first, first + 1, first + 2, material});
-    scene.triangles.push_back({first, first + 2, first + 3, material});
-}
-
 void add_room(Scene& scene) {
     const Vec3 size = kRoomMax - kRoomMin;
     const Vec3 x{size.x, 0, 0};
     const Vec3 y{0, size.y, 0};
     const Vec3 z{0, 0, size.z};
-    add_quad(scene, kRoomMin, z, x, kWallMaterial);      // floor
-    add_quad(scene, kRoomMin + y, x, z, kWallMaterial);  // ceiling
-    add_quad(scene, kRoomMin, x, y, kWallMaterial);      // back
-    add_quad(scene, kRoomMin + z, y, x, kWallMaterial);  // front
-    add_quad(scene, kRoomMin, y, z, kWallMaterial);      // left
-    add_quad(scene, kRoomMin + x, z, y, kWallMaterial);  // right
-    add_quad(scene, {-0.5f, 3.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, kLampMaterial);
+    add_parallelogram(scene, kRoomMin, z, x, kWallMaterial);      // floor
+    add_parallelogram(scene, kRoomMin + y, x, z, kWallMaterial);  // ceiling
+    add_parallelogram(scene, kRoomMin, x, y, kWallMaterial);      // back
+    add_parallelogram(scene, kRoomMin + z, y, x, kWallMaterial);  // front
+    add_parallelogram(scene, kRoomMin, y, z, kWallMaterial);      // left
+    add_parallelogram(scene, kRoomMin + x, z, y, kWallMaterial);  // right
+    add_parallelogram(scene, {-0.5f, 3.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, kLampMaterial);
 }
 
 void add_noisy_sphere(Scene& scene, Vec3 center, float radius, Pcg32& random) {
@@ -86,6 +75,15 @@ void set_camera(Scene& scene) {
 }
 
 }  // namespace
+
+void add_parallelogram(Scene& scene, Vec3 corner, Vec3 a, Vec3 b, uint material) {
+    const uint first = add_vertex(scene, corner);
+    add_vertex(scene, corner + a);
+    add_vertex(scene, corner + a + b);
+    add_vertex(scene, corner + b);
+    scene.triangles.push_back({first, first + 1, first + 2, material});
+    scene.triangles.push_back({first, first + 2, first + 3, material});
+}
 
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed) {
     Scene scene;

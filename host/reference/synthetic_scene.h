@@ -6,6 +6,10 @@
 
 namespace nearlight::core {
 
+/// Adds the parallelogram corner, corner + a, corner + a + b, corner + b, whose front is on the side of a ×
+/// b.
+void add_parallelogram(Scene& scene, Vec3 corner, Vec3 a, Vec3 b, uint material);
+
 /// A room of 8 × 4 × 8 m with a lamp under its ceiling and a floor full of spheres whose surface is rough
 /// noise, about `triangle_count` triangles in all. The same arguments give the same scene on every machine.
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed = 1);

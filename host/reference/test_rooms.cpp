@@ -51,6 +51,20 @@ Scene make_delta_lit_room() {
     return scene;
 }
 
+MirrorCorner make_mirror_corner() {
+    MirrorCorner corner;
+    Scene& scene = corner.scene;
+    scene.materials = {diffuse_material({0.5f, 0.5f, 0.5f}), conductor_material({0, 0, 0}, {1, 1, 1}),
+                       diffuse_material({0, 0, 0})};
+    scene.materials[2].emission = parameter_of(corner.lamp_radiance);
+    const float x = corner.mirror_x;
+    const float half = corner.lamp_half_side;
+    add_parallelogram(scene, {x - 4, 0, -2}, {0, 0, 4}, {4, 0, 0}, 0);
+    add_parallelogram(scene, {x, 0, -2}, {0, 0, 4}, {0, 2, 0}, 1);
+    add_parallelogram(scene, corner.lamp - Vec3{half, 0, half}, {2 * half, 0, 0}, {0, 0, 2 * half}, 2);
+    return corner;
+}
+
 Scene make_lit_sphere(float radius, float albedo) {
     Scene scene;
     scene.materials.push_back(diffuse_material({albedo, albedo, albedo}));

@@ -89,6 +89,9 @@ void check_bsdfs(Device& device, CheckResult& result);
 void check_direct_light(Device& device, CheckResult& result);
 /// A case is the power in a colour channel at a depth: in a closed room of albedo ρ, walks deposit Φ·ρ^depth.
 void check_light_tracing(Device& device, CheckResult& result);
+/// A case is a landing of a walk over a flat mirror, which must lie on the line from the mirror image of the
+/// lamp through its target.
+void check_caustic_walks(Device& device, CheckResult& result);
 /// A case is a depth. The share of chains at a depth must converge to the share of power there if the chains
 /// follow power alone, whatever the depths of their seeds.
 void check_metropolis_chains(Device& device, CheckResult& result);

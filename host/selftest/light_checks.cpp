@@ -18,6 +18,7 @@
 #include "host/reference/test_rooms.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
+#include "host/stages/caustic_aims.h"
 #include "host/stages/close_range.h"
 #include "host/stages/first_surfaces.h"
 #include "host/stages/light_tracer.h"
@@ -125,6 +126,25 @@ void check_metropolis_chains(Device& device, CheckResult& result) {
             result.expect(std::abs(share.at(i) - expected) <= 5 * std::sqrt(expected / kChains));
         }
     }
+}
+
+void check_caustic_walks(Device& device, CheckResult& result) {
+    constexpr uint kWalks = 4096;
+    const MirrorCorner corner = make_mirror_corner();
+    const DeviceScene on_device = upload_scene(device, corner.scene, build_scene_bvh(corner.scene));
+    const float tolerance = 1e-4f * on_device.host_info.extent;
+    const std::vector<CausticLanding> landings = CausticWalks(device).run(on_device, 0, kWalks, 1);
+    for (const CausticLanding& landing : landings) {
+        // Light that a flat mirror reflects comes straight from the mirror image of the lamp.
+        const Vec3 way = landing.target - landing.place;
+        const Vec3 image = landing.place + (corner.lamp.y - landing.place.y) / way.y * way;
+        const float across = 2 * corner.mirror_x - image.x - corner.lamp.x;
+        const float along = image.z - corner.lamp.z;
+        result.expect(std::abs(landing.place.y) <= tolerance &&
+                      std::abs(landing.target.x - corner.mirror_x) <= tolerance &&
+                      std::max(std::abs(across), std::abs(along)) <= corner.lamp_half_side + 10 * tolerance);
+    }
+    result.expect(landings.size() > kWalks / 50);
 }
 
 void check_camera_pass(Device& device, CheckResult& result) {

@@ -36,6 +36,7 @@ std::vector<NamedCheck> all_checks() {
             {"shared veiled", check_shared_veiled},
             {"shared reflections", check_shared_reflections},
             {"light tracing", check_light_tracing},
+            {"caustic walks", check_caustic_walks},
             {"VPL contribution", check_vpl_contribution},
             {"reverse VPLs", check_reverse_vpls},
             {"metropolis chains", check_metropolis_chains},

@@ -2,8 +2,15 @@
 #include "host/session/device_pool.h"
 
 #include "host/base/message.h"
+#include "host/stages/caustic_aims.h"
 
 namespace nearlight::core {
+namespace {
+
+/// All pictures of a scene aim at the same places, whatever their seeds.
+constexpr uint kCausticSeed = 0x0ca5u;
+
+}  // namespace
 
 DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : kernel_(kernel) {
     for (Device* device : devices) {
@@ -33,6 +40,9 @@ void DevicePool::upload(const Scene& scene, const ShapedBvh& tree) {
         try {
             PoolDevice& device = *devices_[i];
             device.scene = upload_scene(device.device(), scene, tree, kernel_);
+            if (device.scene.has_mirrors) {
+                device.scene.caustic_aims = find_caustic_aims(device.device(), device.scene, kCausticSeed);
+            }
             device.bands.expect(device.scene);
         } catch (const Error& error) {
             lose(i, error);

@@ -135,6 +135,8 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
         scene.materials, [&](const Material& material) { return has_two_ways(scene, material); });
     on_device.has_rough_gloss = std::ranges::any_of(
         scene.materials, [&](const Material& material) { return has_rough_gloss(scene, material); });
+    on_device.has_mirrors = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return has_mirror(scene, material); });
     on_device.total_power = emitters.total_power;
     for (const Triangle& triangle : scene.triangles) {
         on_device.total_area += triangle_area(scene, triangle);
@@ -162,6 +164,7 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.detail_cdf = put(environment.detail_cdf);
     on_device.light_nodes = put(emitters.light_tree);
     on_device.info = put(std::vector{on_device.host_info});
+    on_device.caustic_aims = CausticAims(device);
     return on_device;
 }
 

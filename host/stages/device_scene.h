@@ -8,8 +8,25 @@
 #include "host/scene/scene.h"
 #include "host/stages/device_tree.h"
 #include "host/stages/veil_trees.h"
+#include "kernels/shared/caustic_aims.h"
 
 namespace nearlight::core {
+
+/// Where receivers aim to find light over mirrors and glass, in the order of CAUSTIC_PARAMETERS
+/// (host/stages/caustic_aims.h). Without cells, none aims.
+struct CausticAims {
+    CausticAims() = default;
+    explicit CausticAims(Device& device) : cells(device, 0), targets(device, 0) {}
+
+    CausticTable table{};
+    Buffer<CausticCell> cells;  ///< the entries of the table
+    Buffer<Vec3> targets;
+
+    template <typename Visitor>
+    void for_each_buffer(Visitor&& visit) const {
+        visit(table), visit(cells), visit(targets);
+    }
+};
 
 struct DeviceScene {
     DeviceTree tree;
@@ -32,14 +49,16 @@ struct DeviceScene {
     Buffer<float> detail_cdf;
     Buffer<LightNode> light_nodes;
     Buffer<SceneInfo> info;
+    CausticAims caustic_aims;
 
     // The host needs these without asking the device.
     SceneInfo host_info{};
     bool has_rough_gloss = false;  ///< some material spreads light by gloss
-    bool divides_paths = false;    ///< some material (a coat or glass) divides camera paths in two
-    float mean_albedo = 0.5f;      ///< luminance of what surfaces reflect or let through, averaged over area
-    float total_power = 0.0f;      ///< luminance of the emitted flux of all lights, W
-    double total_area = 0.0;       ///< area of all triangles, m²
+    bool has_mirrors = false;    ///< some material is a smooth mirror or the boundary of a smooth glass body
+    bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
+    float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;     ///< area of all triangles, m²
 
     /// The transmission curves for a gather; null where all of them are 1.
     [[nodiscard]] const Buffer<float>* curves_in_use() const {

@@ -63,11 +63,12 @@ void ReceiverPaths::launch(const ReceiverBatch& batch, uint shared_kinds, Buffer
                                     .clamp_radius = settings.clamp_radius,
                                     .seed = settings.seed,
                                     .shares = shared_kinds,
+                                    .aimed_count = settings.path_count > 0 ? settings.aimed_count : 0,
                                     .shared_limit = settings.shared_limit};
     receiver_paths_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene,
                                  VeilsForRays{batch.scene}, batch.receivers, params, direct, indirect,
                                  found.near, found.sky, found.veiled, found.reflected, found.reflections,
-                                 found.spacing);
+                                 found.spacing, batch.scene.caustic_aims);
 }
 
 }  // namespace nearlight::core

@@ -4,6 +4,7 @@
 #ifndef NEARLIGHT_LIB_CONTINUED_PATH
 #define NEARLIGHT_LIB_CONTINUED_PATH
 
+#include "lib/caustic_aim.cl"
 #include "lib/outlined.cl"
 #include "lib/path_numbers.cl"
 #include "lib/receiver_point.cl"
@@ -37,6 +38,9 @@ typedef struct RayShare {
     uint finds_veiled;   // 1: the bundle gets what the first solid surface behind veils sends by that part
     float shared_limit;  // how much of the light that one path brings from lamps which it met by chance goes
                          // to the bundle, as the radiance of the place that sends it on, W/m²/sr
+    float unaimed_rays;  // of the receiver, one of which this is
+    float aimed_rays;    // of the receiver, which bring a part of the light over mirrors and glass
+    const CausticAim* aim;  // of the receiver, if it has aimed rays
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -219,8 +223,11 @@ typedef struct ContinuedPath {
     SurfaceHit hit;
     Continuation way;
     BundlePath of_bundle;
-    float first_weight;  // of the ray's throughput where it began to count
-    float shared_limit;  // RayShare.shared_limit times that weight
+    float first_weight;      // of the ray's throughput where it began to count
+    float shared_limit;      // RayShare.shared_limit times that weight
+    float3 first_direction;  // from the receiver
+    float first_cosine;      // of that direction at the receiver
+    uint is_specular;        // 1: only mirror images, refractions and veils so far
     ReceivedLight light;
 } ContinuedPath;
 
@@ -236,11 +243,21 @@ static inline void add_by_chance(ContinuedPath* path, float3 light) {
     path->way.excess += (1.0f - part) * light;
 }
 
+/// The part of the light of a lamp that the path brings, where rays that aim at mirrors and glass bring the
+/// rest.
+static inline float part_beside_aimed(const ContinuedPath* path, const RayShare* share) {
+    const bool is_aimed_at = share->aimed_rays > 0.0f && path->is_specular && path->ray.pdf == 0.0f;
+    return is_aimed_at ? unaimed_part(share->aim, share->unaimed_rays, share->aimed_rays, path->first_cosine,
+                                      path->first_direction)
+                       : 1.0f;
+}
+
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
 /// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
 /// bundle's goes into the draw.
-static inline void add_met_light(const SceneView* scene, ContinuedPath* path, uint surfaces, float scale,
-                                 float u, FoundReflection* found) {
+static inline void add_met_light(const SceneView* scene, ContinuedPath* path, const RayShare* share,
+                                 uint surfaces, float u, FoundReflection* found) {
+    const float scale = surfaces < share->max_edges ? path->way.near_scale : path->way.far_scale;
     const PathRay* ray = &path->ray;
     const MetLight met = find_met_light(scene, ray, &path->hit);
     const float3 brought = scale * ray->throughput * met.radiance;
@@ -248,8 +265,8 @@ static inline void add_met_light(const SceneView* scene, ContinuedPath* path, ui
         find_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
     } else if (ray->veils == surfaces) {
         path->light.direct += brought * met_weight(ray, &met);
-    } else {
-        add_by_chance(path, brought * met_weight(ray, &met));
+    } else if (!is_black(brought)) {
+        add_by_chance(path, brought * (met_weight(ray, &met) * part_beside_aimed(path, share)));
     }
 }
 
@@ -331,10 +348,9 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Ra
         !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {
         return false;
     }
+    path->is_specular &= path->ray.pdf == 0.0f || path->ray.veils == surfaces;
     path->hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
-    add_met_light(scene, path, surfaces,
-                  surfaces < share->max_edges ? path->way.near_scale : path->way.far_scale, numbers.draw,
-                  found);
+    add_met_light(scene, path, share, surfaces, numbers.draw, found);
     return path->hit.t >= 0.0f;
 }
 
@@ -355,6 +371,9 @@ OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ra
     path.first_weight = max_component(ray.throughput);
     path.light = nothing_received();
     path.of_bundle.is_one = 0;
+    path.first_direction = ray.direction;
+    path.first_cosine = fmax(dot(ray.from.n, ray.direction), 0.0f);
+    path.is_specular = 1;
     path.way.max_edges = share->vpl_edges;
     path.way.is_found = 0;
     path.way.excess = (float3)(0.0f);

@@ -90,7 +90,16 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    const RayShare share = {1.0f - weight, max_edges, max_edges, 0, 0, 0, INFINITY};
+    const RayShare share = {.of_vpls = 1.0f - weight,
+                            .max_edges = max_edges,
+                            .vpl_edges = max_edges,
+                            .is_shared = 0,
+                            .is_diffuse = 0,
+                            .finds_veiled = 0,
+                            .shared_limit = INFINITY,
+                            .unaimed_rays = 0.0f,
+                            .aimed_rays = 0.0f,
+                            .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
     if (brings_more(scene, &share)) {

@@ -40,6 +40,8 @@ typedef struct PathLimits {
     uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
     float shared_limit;  // RayShare.shared_limit
+    uint aimed_count;  // rays that each receiver sends besides to mirrors and glass, if it has targets there
+    CausticAim aim;    // its targets
 } PathLimits;
 
 /// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
@@ -48,16 +50,23 @@ static inline float remaining_weight(float t, float clamp_radius) {
     return clamp_radius < INFINITY ? fmax(0.0f, 1.0f - ratio * ratio) : 1.0f;
 }
 
-/// A cosine-distributed ray of a receiver.
-static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at,
-                                   float rays_per_light_sample, float2 u) {
-    PathRay ray = first_ray(to_world_frame(square_to_cosine_hemisphere(u), at->n));
+/// A ray of a receiver in a direction, weighted as one of cosine-distributed rays.
+static inline PathRay receiver_ray_towards(const SceneView* scene, const ReceiverPoint* at,
+                                           float rays_per_light_sample, float3 direction) {
+    PathRay ray = first_ray(direction);
     const float cosine = fmax(dot(at->n, ray.direction), 0.0f);
     ray.throughput = (float3)(M_PI_F * diffuse_transmission(scene, at->curve, cosine) *
                               receiver_map_factor(at, ray.direction));
     const LightReceiver from = even_receiver(at->x, at->n);
     begin_ray(&ray, &from, rays_per_light_sample * cosine * M_1_PI_F);
     return ray;
+}
+
+/// A cosine-distributed ray of a receiver.
+static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* at,
+                                   float rays_per_light_sample, float2 u) {
+    const float3 direction = to_world_frame(square_to_cosine_hemisphere(u), at->n);
+    return receiver_ray_towards(scene, at, rays_per_light_sample, direction);
 }
 
 /// The light at the place that a ray met, which sends `radiance` to all sides. It counts in draws by what it
@@ -119,7 +128,10 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
                             .is_shared = 1,
                             .is_diffuse = 1,
                             .finds_veiled = 0,
-                            .shared_limit = VEILED_PART * limits->shared_limit};
+                            .shared_limit = VEILED_PART * limits->shared_limit,
+                            .unaimed_rays = 0.0f,
+                            .aimed_rays = 0.0f,
+                            .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
     const ReceivedLight light = continued_light(scene, *ray, behind, &share, keys ^ 0x7e11u, &way, &none);
@@ -132,7 +144,44 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
     return veiling.part * way.excess / VEILED_PART;
 }
 
-/// What one ray of a receiver brings.
+/// The light of lamps that a ray brings which aims at mirrors and glass and goes on from there over nothing
+/// else. The result counts as that of a cosine-distributed ray.
+OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
+                            float2 u, uint4 keys) {
+    float3 light = (float3)(0.0f);
+    const float3 direction = caustic_direction(&limits->aim, u);
+    const float cosine = dot(at->n, direction);
+    if (!(cosine > 0.0f)) {
+        return light;
+    }
+    PathRay ray = receiver_ray_towards(scene, at, 1.0f, direction);
+    ray.throughput *=
+        unaimed_part(&limits->aim, (float)limits->path_count, (float)limits->aimed_count, cosine, direction);
+    const float first_weight = max_component(ray.throughput);
+    if (!(first_weight > 0.0f)) {
+        return light;
+    }
+    SurfaceHit hit = trace_surface(scene, ray.origin, direction, INFINITY);
+    for (uint surfaces = 1; surfaces < limits->max_edges && hit.t >= 0.0f; ++surfaces) {
+        const PathNumbers numbers = path_numbers(keys, surfaces);
+        const SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, numbers.model);
+        float weight = 1.0f;
+        const float way = surfaces == 1 ? choose_way_evenly(&surface, numbers.lobe, &weight) : numbers.lobe;
+        if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, numbers.end) ||
+            !scatter_ray(scene, &ray, &hit, &surface, BSDF_S, way, numbers.direction) ||
+            !(ray.pdf == 0.0f || ray.veils == surfaces)) {
+            break;
+        }
+        ray.throughput *= weight;
+        hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
+        if (ray.pdf == 0.0f) {
+            light += ray.throughput * met_light(scene, &ray, &hit);
+        }
+    }
+    return light;
+}
+
+/// What one cosine-distributed ray of a receiver brings.
 static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at,
                                       const PathLimits* limits, float2 u, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
@@ -167,7 +216,10 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
                             .is_shared = finds->near.is_wanted && hit.t < limits->clamp_radius,
                             .is_diffuse = 0,
                             .finds_veiled = finds->veiled.is_wanted,
-                            .shared_limit = limits->shared_limit};
+                            .shared_limit = limits->shared_limit,
+                            .unaimed_rays = (float)limits->path_count,
+                            .aimed_rays = (float)limits->aimed_count,
+                            .aim = &limits->aim};
     if (brings_more(scene, &share)) {
         Continuation way;
         const ReceivedLight beyond =
@@ -197,6 +249,11 @@ OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const Recei
                                                 random_uint4((uint4)(keys.y, keys.z, keys.w, path)), finds);
         light.direct += brought.direct;
         light.indirect += brought.indirect;
+    }
+    const uint first_aimed = limits->sample * limits->aimed_count;
+    for (uint path = first_aimed; limits->aim.count > 0 && path < first_aimed + limits->aimed_count; ++path) {
+        light.indirect += aimed_light(scene, at, limits, sample_2d(path, 3, keys.x),
+                                      random_uint4((uint4)(keys.y, keys.z, ~keys.w, path)));
     }
     const float scale = 1.0f / (float)max(limits->path_count, 1u);
     light.direct *= scale;

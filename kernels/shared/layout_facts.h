@@ -112,6 +112,12 @@
     OFFSET(CameraVertex, filter_weight)             \
     OFFSET(CameraVertex, traced_direct)             \
     OFFSET(CameraVertex, traced_indirect)           \
+    SIZE(CausticLanding)                            \
+    OFFSET(CausticLanding, is_there)                \
+    SIZE(CausticCell)                               \
+    OFFSET(CausticCell, count)                      \
+    SIZE(CausticTable)                              \
+    OFFSET(CausticTable, side)                      \
     SIZE(CloseRange)                                \
     OFFSET(CloseRange, range)                       \
     SIZE(Opening)                                   \

@@ -17,12 +17,13 @@ typedef struct ReceiverPathParams {
     uint max_edges;      // of a path from a light to a receiver with no surfaces before it
     float clamp_radius;  // m
     uint seed;
-    uint shares;  // what goes to bundles: NEARLIGHT_SHARES_… of shared/shared_light.h
+    uint shares;         // what goes to bundles: NEARLIGHT_SHARES_… of shared/shared_light.h
+    uint aimed_count;    // rays that each receiver sends besides to mirrors and glass (lib/caustic_aim.cl)
     float shared_limit;  // radiance of places, W/m²/sr, above which light met by chance stays with receivers
 } ReceiverPathParams;
 
 #ifdef __cplusplus
-NEARLIGHT_CHECK_SHARED(ReceiverPathParams, 32);
+NEARLIGHT_CHECK_SHARED(ReceiverPathParams, 36);
 }  // namespace nearlight::core
 #endif
 

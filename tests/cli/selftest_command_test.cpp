@@ -31,8 +31,9 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
                   "layout, scan, compaction, sort, morton, classify, light visibility, placement, "
                   "patch VPLs, VPL light, closest hit, any hit, gather packets, gather rays, roulette, "
                   "light cuts, BSDFs, direct light, paths of receivers, shared lights, shared sky, "
-                  "shared veiled, shared reflections, light tracing, VPL contribution, reverse VPLs, "
-                  "metropolis chains, local lights, camera pass, first surfaces, camera lights, film");
+                  "shared veiled, shared reflections, light tracing, caustic walks, VPL contribution, "
+                  "reverse VPLs, metropolis chains, local lights, camera pass, first surfaces, camera "
+                  "lights, film");
     }
 }
 
