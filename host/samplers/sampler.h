@@ -73,6 +73,9 @@ struct VplSet {
     std::optional<LocalLightPlan> local{};
     /// What is best spent beside these VPLs, if a pilot chose it.
     std::optional<RayBudget> ray_budget{};
+    /// Seconds that a set like this one takes where no part of it is kept from another picture; 0: as many as
+    /// it took.
+    double seconds_unless_kept = 0.0;
 };
 
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);

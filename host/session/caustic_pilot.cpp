@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/caustic_pilot.h"
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
+#include "host/base/message.h"
 #include "host/base/receivers.h"
 
 namespace nearlight::core {
@@ -14,6 +17,7 @@ constexpr uint kRays = 4;
 /// Aimed rays pay if the variance is at most this part of that without them: they take time, and VPLs make
 /// noise of their own.
 constexpr double kMaxVariance = 0.5;
+
 /// Sums over the seeds of what a receiver gets, and of the squares.
 struct Moments {
     double sum = 0.0;
@@ -60,7 +64,10 @@ bool caustic_aims_pay(Device& device, ReceiverPaths& paths, const DeviceScene& s
     const double without = sum_of_variances(device, paths, scene, view, settings, seed);
     settings.aimed_count = 1;
     const double with = sum_of_variances(device, paths, scene, view, settings, seed);
-    return with < kMaxVariance * without;
+    const bool pays = with < kMaxVariance * without;
+    say_debug("rays that aim at mirrors and glass leave " + std::to_string(with / std::max(without, 1e-30)) +
+              " of the variance: receivers " + (pays ? "aim" : "do not aim"));
+    return pays;
 }
 
 }  // namespace nearlight::core

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/stopwatch.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -57,6 +59,7 @@ VplSet KeyVpls::make(Session& session, const ViewSettings& view, const SamplingS
     std::vector<VplSet> fresh;
     fresh.reserve(views_.size());
     std::vector<VplPart> parts;
+    const Stopwatch watch;
     for (const KeyView& key : views_) {
         const Key name{key.frame, seed, sampling.vpl_count, view.ray_budget_pilot};
         const auto kept = sets_.find(name);
@@ -74,7 +77,10 @@ VplSet KeyVpls::make(Session& session, const ViewSettings& view, const SamplingS
             parts.push_back({&fresh.emplace_back(std::move(set)), key.weight});
         }
     }
-    return session.join(parts);
+    VplSet set = session.join(parts);
+    most_seconds_ = std::max(most_seconds_, watch.seconds());
+    set.seconds_unless_kept = most_seconds_;
+    return set;
 }
 
 }  // namespace nearlight::core

@@ -52,6 +52,7 @@ class KeyVpls {
     std::vector<KeyView> views_;
     std::map<Key, VplSet> sets_;
     std::size_t kept_vpls_ = 0;
+    double most_seconds_ = 0.0;  ///< that the VPLs of a pass took so far
 };
 
 }  // namespace nearlight::core

@@ -61,7 +61,7 @@ double PassSchedule::fitting_samples() const {
     if (!pace_.sample_seconds) {
         return seconds_left() > 0.0 ? full_samples_ : 0.0;
     }
-    return (seconds_left() - pace_.vpl_seconds) / *pace_.sample_seconds - kPlannedExtra;
+    return (seconds_left() - next_vpl_seconds_) / *pace_.sample_seconds - kPlannedExtra;
 }
 
 double PassSchedule::needed_samples() const {
@@ -98,6 +98,7 @@ void PassSchedule::resume(std::vector<uint> samples, std::optional<double> error
     done_samples_ = std::accumulate(samples_.begin(), samples_.end(), 0.0);
     error_ = error;
     pace_ = pace;
+    next_vpl_seconds_ = pace.vpl_seconds;
     is_resumed_ = true;
     begun_samples_ = begun_samples;
     present_part_ = 1.0 - begun_part;
@@ -171,7 +172,7 @@ std::optional<PassForecast> PassSchedule::forecast() const {
     const auto done = static_cast<double>(samples_.size());
     const double unbelieved = *error_ > 0.0 ? believed_passes_ - done : 0.0;
     const double missing = std::max({0.0, (needed_samples() - done_samples_) / full_samples_, unbelieved});
-    const double pass_seconds = pace_.vpl_seconds + full_samples_ * pace_.sample_seconds.value_or(0.0);
+    const double pass_seconds = next_vpl_seconds_ + full_samples_ * pace_.sample_seconds.value_or(0.0);
     const double seconds = seconds_before_ + watch_.seconds() + missing * pass_seconds;
     return PassForecast{
         .error = *error_,

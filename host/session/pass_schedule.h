@@ -2,6 +2,7 @@
 // Decides how many passes a picture has, and how many samples each of them.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -50,8 +51,12 @@ class PassSchedule {
     /// Sets how many passes it takes to believe that an error is reached; 1 at first. An error of 0 is always
     /// believed.
     void believe_after(uint passes) { believed_passes_ = passes; }
-    /// To be called when the VPLs of the pass are there.
-    void note_vpls() { pace_.vpl_seconds = pass_watch_.seconds(); }
+    /// To be called when the VPLs of the pass are there. Those of the next pass may take
+    /// `seconds_unless_kept`, if that is more than these took (VplSet).
+    void note_vpls(double seconds_unless_kept = 0.0) {
+        pace_.vpl_seconds = pass_watch_.seconds();
+        next_vpl_seconds_ = std::max(pace_.vpl_seconds, seconds_unless_kept);
+    }
     /// Whether the present pass should be given up, as it would take far longer than the time allows.
     /// `of_pass` is how far its gather is, from 0 to 1.
     bool is_too_long(double of_pass);
@@ -93,6 +98,7 @@ class PassSchedule {
     uint believed_passes_ = 1;
     std::optional<double> error_;
     PassPace pace_;  ///< of the present or the last pass
+    double next_vpl_seconds_ = 0.0;
     bool is_resumed_ = false;
     uint begun_samples_ = 0;  ///< of the pass to go on with; 0: there is none
 

@@ -177,7 +177,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     const uint number = passes.first + report.passes;
     Prepared pass = begin_pass(session, pass_settings(settings, number, samples, passes.choice), hooks.vpls,
                                passes, report);
-    passes.schedule.note_vpls();
+    passes.schedule.note_vpls(pass.vpls.seconds_unless_kept);
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
     if (passes.begun_rows > 0) {
         pass.settings.gather.window = rest_of(pass, std::exchange(passes.begun_rows, 0));

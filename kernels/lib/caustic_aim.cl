@@ -57,6 +57,11 @@ static inline CausticAim caustic_aim_at(const CausticTable* table, const global 
     return aim;
 }
 
+/// The distance (m) of a target from the receiver, which may touch it.
+static inline float distance_of(float3 to_target) {
+    return fmax(length(to_target), 1e-15f);
+}
+
 /// 1 − the cosine of the half angle of the cone about a target at a distance (m): at most some 63°.
 static inline float caustic_cone(const CausticAim* aim, float distance) {
     const float radius = fmin(aim->radius, 2.0f * distance);
@@ -69,7 +74,7 @@ static inline float caustic_pdf(const CausticAim* aim, float3 direction) {
     float sum = 0.0f;
     for (uint i = 0; i < aim->count; ++i) {
         const float3 to_target = load3(aim->targets[i]) - aim->x;
-        const float distance = length(to_target);
+        const float distance = distance_of(to_target);
         const float cone = caustic_cone(aim, distance);
         // With unit vectors, |a − b|² is 2·(1 − cosine), which keeps its digits in narrow cones.
         const float3 apart = direction - to_target / distance;
@@ -83,7 +88,7 @@ static inline float3 caustic_direction(const CausticAim* aim, float2 u) {
     const float place = u.x * (float)aim->count;
     const uint i = min((uint)place, aim->count - 1);
     const float3 to_target = load3(aim->targets[i]) - aim->x;
-    const float distance = length(to_target);
+    const float distance = distance_of(to_target);
     const float below_one = (place - (float)i) * caustic_cone(aim, distance);
     const float sine = sqrt(below_one * (2.0f - below_one));
     return to_world_frame((float3)(sine * circle_point(u.y), 1.0f - below_one), to_target / distance);

@@ -265,7 +265,7 @@ static inline void add_met_light(const SceneView* scene, ContinuedPath* path, co
         find_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
     } else if (ray->veils == surfaces) {
         path->light.direct += brought * met_weight(ray, &met);
-    } else if (!is_black(brought)) {
+    } else {
         add_by_chance(path, brought * (met_weight(ray, &met) * part_beside_aimed(path, share)));
     }
 }

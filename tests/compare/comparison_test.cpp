@@ -211,6 +211,23 @@ TEST_F(ComparisonTest, ASceneWithNothingToCompareIsRefused) {
     });
 }
 
+/// A floor alone gets no light from other surfaces.
+TEST_F(ComparisonTest, ASceneWithoutIndirectLightIsLeftOutAmongOthers) {
+    on_each_device([&](Device& device) {
+        std::vector<Scene> scenes(2, corner());
+        scenes[0].name = "floor";
+        scenes[0].triangles.resize(2);
+        Stopper stopper;
+        const std::optional<Comparison> comparison = compare(device, scenes, settings(), stopper.observer());
+        ASSERT_TRUE(comparison);
+        ASSERT_EQ(comparison->scenes.size(), 1u);
+        EXPECT_EQ(comparison->scenes[0].facts.name, "corner");
+        scenes.pop_back();
+        EXPECT_TRUE(mentions(error_of([&] { compare(device, scenes, settings(), stopper.observer()); }),
+                             "nothing to compare"));
+    });
+}
+
 TEST(SceneNames, AreFitForFilesAndUnique) {
     std::vector<Scene> scenes(4);
     scenes[0].name = "living room/é";

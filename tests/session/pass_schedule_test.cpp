@@ -109,6 +109,22 @@ TEST(PassSchedule, PlansByThePaceOfThePassesBefore) {
     EXPECT_EQ(schedule.begin(), 6u) << "800 s are left for samples, and one is kept in reserve";
 }
 
+/// Of a walk's pictures, the first pass may have its VPLs from the picture before, and the second seldom has.
+TEST(PassSchedule, CountsOnVplsThatAreNotKept) {
+    RenderSettings settings;
+    settings.seconds = 0.5;
+    const auto makes_second_pass = [&](double seconds_unless_kept) {
+        PassSchedule schedule(settings, 0.0);
+        EXPECT_EQ(schedule.begin(), 16u);
+        schedule.note_vpls(seconds_unless_kept);
+        schedule.end({});
+        return schedule.begin().has_value();
+    };
+    EXPECT_TRUE(makes_second_pass(0.0));
+    EXPECT_TRUE(makes_second_pass(0.1));
+    EXPECT_FALSE(makes_second_pass(0.6));
+}
+
 TEST(PassSchedule, GivesUpOnlyAFirstPassThatTakesFarTooLong) {
     RenderSettings settings;
     settings.seconds = 0.05;

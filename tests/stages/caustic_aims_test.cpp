@@ -201,7 +201,7 @@ TEST_F(CausticAimsTest, AimedRaysBringTheLightOfAMirrorImage) {
     on_each_device([](Device& device) {
         const MirrorCorner corner = make_mirror_corner();
         const Received plain = received(device, corner.scene, 0, 4, 256);
-        const Received aimed = received(device, corner.scene, 1, 4, 2048);
+        const Received aimed = received(device, corner.scene, 1, 4, 8192);
         const std::vector<ReceiverPacket> packets = receivers_on_the_floor();
         double total = 0;
         double expected_total = 0;
