@@ -129,7 +129,6 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                             .bundle_rays = 0,
                             .sample = sequence_index(path),
                             .shared_limit = INFINITY,
-                            .aimed_count = 0,
                             .aim = no_caustic_aim()};
     Finds finds = nothing_shared();
     const ReceivedLight light = received_light(

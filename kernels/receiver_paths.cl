@@ -40,7 +40,6 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
                                .bundle_rays = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
                                .sample = receiver_sample(receiver, lane),
                                .shared_limit = params->shared_limit,
-                               .aimed_count = params->aimed_count,
                                .aim = no_caustic_aim()};
     return limits;
 }
@@ -79,6 +78,8 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
         PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
         if (params.aimed_count > 0) {
             limits.aim = caustic_aim_at(&caustic_table, caustic_cells, caustic_targets, at.x);
+            limits.aim.aimed_rays = params.aimed_count;
+            limits.aim.cosine_rays = params.path_count;
         }
         const uint sequence = receiver->sequence[lane];
         const uint4 key = sequence != 0

@@ -76,15 +76,6 @@ void set_camera(Scene& scene) {
 
 }  // namespace
 
-void add_parallelogram(Scene& scene, Vec3 corner, Vec3 a, Vec3 b, uint material) {
-    const uint first = add_vertex(scene, corner);
-    add_vertex(scene, corner + a);
-    add_vertex(scene, corner + a + b);
-    add_vertex(scene, corner + b);
-    scene.triangles.push_back({first, first + 1, first + 2, material});
-    scene.triangles.push_back({first, first + 2, first + 3, material});
-}
-
 Scene make_sphere_room(std::size_t triangle_count, std::uint64_t seed) {
     Scene scene;
     scene.name = "sphere-room-" + std::to_string(triangle_count);

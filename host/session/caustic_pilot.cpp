@@ -16,7 +16,7 @@ constexpr uint kSeeds = 6;
 constexpr uint kRays = 4;
 /// Aimed rays pay if the variance is at most this part of that without them: they take time, and VPLs make
 /// noise of their own.
-constexpr double kMaxVariance = 0.5;
+constexpr double kMaxVariance = 0.6;
 
 /// Sums over the seeds of what a receiver gets, and of the squares.
 struct Moments {

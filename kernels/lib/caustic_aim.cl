@@ -17,12 +17,13 @@
     CausticTable caustic_table, const global CausticCell *restrict caustic_cells, \
         const global Vec3 *restrict caustic_targets
 
-/// The targets of a receiver.
+/// The targets of a receiver, and how many rays it sends.
 typedef struct CausticAim {
     const global Vec3* targets;
     uint count;    // of targets; 0: the receiver does not aim
     float radius;  // of the ball about a target that its cone holds, m
     float3 x;      // the receiver
+    uint aimed_rays, cosine_rays;
 } CausticAim;
 
 static inline CausticAim no_caustic_aim(void) {
@@ -31,10 +32,11 @@ static inline CausticAim no_caustic_aim(void) {
     aim.count = 0;
     aim.radius = 0.0f;
     aim.x = (float3)(0.0f);
+    aim.aimed_rays = aim.cosine_rays = 0;
     return aim;
 }
 
-/// The targets of the smallest cell around x that has some.
+/// The targets of the smallest cell around x that has some. The numbers of rays are still to be set.
 static inline CausticAim caustic_aim_at(const CausticTable* table, const global CausticCell* cells,
                                         const global Vec3* targets, float3 x) {
     CausticAim aim = no_caustic_aim();
@@ -94,15 +96,14 @@ static inline float3 caustic_direction(const CausticAim* aim, float2 u) {
     return to_world_frame((float3)(sine * circle_point(u.y), 1.0f - below_one), to_target / distance);
 }
 
-/// The part that counts of what a cosine-distributed ray finds, one of `rays` of a receiver, beside `aimed`
-/// rays that look for the same.
-static inline float unaimed_part(const CausticAim* aim, float rays, float aimed, float cosine,
-                                 float3 direction) {
+/// The part that counts of what a cosine-distributed ray finds in a direction, beside the rays that aim.
+static inline float unaimed_part(const CausticAim* aim, float cosine, float3 direction) {
     if (aim->count == 0) {
         return 1.0f;
     }
-    const float unaimed = rays * cosine * M_1_PI_F;
-    return unaimed > 0.0f ? unaimed / (unaimed + aimed * caustic_pdf(aim, direction)) : 0.0f;
+    const float unaimed = (float)aim->cosine_rays * cosine * M_1_PI_F;
+    const float aimed = (float)aim->aimed_rays * caustic_pdf(aim, direction);
+    return unaimed > 0.0f ? unaimed / (unaimed + aimed) : 0.0f;
 }
 
 /// The chance by which rays that aim take the rarer of the two ways on from a glass body.

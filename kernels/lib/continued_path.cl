@@ -38,9 +38,8 @@ typedef struct RayShare {
     uint finds_veiled;   // 1: the bundle gets what the first solid surface behind veils sends by that part
     float shared_limit;  // how much of the light that one path brings from lamps which it met by chance goes
                          // to the bundle, as the radiance of the place that sends it on, W/m²/sr
-    float unaimed_rays;  // of the receiver, one of which this is
-    float aimed_rays;    // of the receiver, which bring a part of the light over mirrors and glass
-    const CausticAim* aim;  // of the receiver, if it has aimed rays
+    const CausticAim* aim;  // of the receiver, whose other rays bring a part of the light over mirrors and
+                            // glass; null: none of them aims
 } RayShare;
 
 /// How a ray goes on from its first surface.
@@ -246,10 +245,8 @@ static inline void add_by_chance(ContinuedPath* path, float3 light) {
 /// The part of the light of a lamp that the path brings, where rays that aim at mirrors and glass bring the
 /// rest.
 static inline float part_beside_aimed(const ContinuedPath* path, const RayShare* share) {
-    const bool is_aimed_at = share->aimed_rays > 0.0f && path->is_specular && path->ray.pdf == 0.0f;
-    return is_aimed_at ? unaimed_part(share->aim, share->unaimed_rays, share->aimed_rays, path->first_cosine,
-                                      path->first_direction)
-                       : 1.0f;
+    const bool is_aimed_at = share->aim != 0 && path->is_specular && path->ray.pdf == 0.0f;
+    return is_aimed_at ? unaimed_part(share->aim, path->first_cosine, path->first_direction) : 1.0f;
 }
 
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came

@@ -97,8 +97,6 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
                             .is_diffuse = 0,
                             .finds_veiled = 0,
                             .shared_limit = INFINITY,
-                            .unaimed_rays = 0.0f,
-                            .aimed_rays = 0.0f,
                             .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();

@@ -40,8 +40,7 @@ typedef struct PathLimits {
     uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
     float shared_limit;  // RayShare.shared_limit
-    uint aimed_count;  // rays that each receiver sends besides to mirrors and glass, if it has targets there
-    CausticAim aim;    // its targets
+    CausticAim aim;      // where the receiver sends rays besides
 } PathLimits;
 
 /// The weight of the Lambertian part of what a ray meets at the distance t; VPLs bring the rest.
@@ -129,8 +128,6 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
                             .is_diffuse = 1,
                             .finds_veiled = 0,
                             .shared_limit = VEILED_PART * limits->shared_limit,
-                            .unaimed_rays = 0.0f,
-                            .aimed_rays = 0.0f,
                             .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
@@ -155,8 +152,7 @@ OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, con
         return light;
     }
     PathRay ray = receiver_ray_towards(scene, at, 1.0f, direction);
-    ray.throughput *=
-        unaimed_part(&limits->aim, (float)limits->path_count, (float)limits->aimed_count, cosine, direction);
+    ray.throughput *= unaimed_part(&limits->aim, cosine, direction);
     const float first_weight = max_component(ray.throughput);
     if (!(first_weight > 0.0f)) {
         return light;
@@ -217,8 +213,6 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
                             .is_diffuse = 0,
                             .finds_veiled = finds->veiled.is_wanted,
                             .shared_limit = limits->shared_limit,
-                            .unaimed_rays = (float)limits->path_count,
-                            .aimed_rays = (float)limits->aimed_count,
                             .aim = &limits->aim};
     if (brings_more(scene, &share)) {
         Continuation way;
@@ -250,8 +244,9 @@ OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const Recei
         light.direct += brought.direct;
         light.indirect += brought.indirect;
     }
-    const uint first_aimed = limits->sample * limits->aimed_count;
-    for (uint path = first_aimed; limits->aim.count > 0 && path < first_aimed + limits->aimed_count; ++path) {
+    const CausticAim* aim = &limits->aim;
+    const uint first_aimed = limits->sample * aim->aimed_rays;
+    for (uint path = first_aimed; aim->count > 0 && path < first_aimed + aim->aimed_rays; ++path) {
         light.indirect += aimed_light(scene, at, limits, sample_2d(path, 3, keys.x),
                                       random_uint4((uint4)(keys.y, keys.z, ~keys.w, path)));
     }

@@ -34,7 +34,7 @@ TEST_F(CausticPilotTest, WithoutMirrorsNothingIsAimedAt) {
     });
 }
 
-/// Light samples find most of the light of a mirror that is nearly rough.
+/// Where lamps are in every direction, all rays over a mirror meet one.
 TEST_F(CausticPilotTest, AimingDoesNotPayWhereLampsFillTheView) {
     on_each_device([](Device& device) {
         Scene scene = make_mirror_corner().scene;

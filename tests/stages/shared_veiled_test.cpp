@@ -89,14 +89,9 @@ TEST_F(SharedVeiledTest, BringsWhatOwnRaysBring) {
     });
 }
 
-/// CPUs take a bundle with one work-item, and GPUs with many.
 TEST_F(SharedVeiledTest, DoesNotDependOnTheDivisionOfABundle) {
     on_each_device([](Device& device) {
-        const auto by_items = [&](std::uint32_t items) {
-            return test::brought_by_items(device, items, floor_below_a_pane(), receivers_above(),
-                                          kTwoVeiledRays);
-        };
-        EXPECT_EQ(by_items(64), by_items(1));
+        test::expect_same_by_any_division(device, floor_below_a_pane(), receivers_above(), kTwoVeiledRays);
     });
 }
 

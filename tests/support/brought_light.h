@@ -2,6 +2,8 @@
 // Light that rays bring to receivers over surfaces, each by its own rays or by those of its bundle.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include "host/base/receivers.h"
@@ -81,16 +83,19 @@ inline Brought brought(Device& device, const Scene& scene, const std::vector<Rec
     return result;
 }
 
-/// Light that the rays of bundles bring, for each receiver, where so many work-items divide a bundle among
-/// them.
-inline std::vector<double> brought_by_items(const Device& shared, std::uint32_t items, const Scene& scene,
-                                            const std::vector<ReceiverPacket>& packets,
-                                            const ReceiverPathSettings& settings) {
-    Device device(shared.entry(), shared.options());
-    Tunables tunables = shared.tunables();
-    tunables.bundle_local_size = items;
-    device.set_tunables(tunables);
-    return brought(device, scene, packets, true, settings, 1).mean;
+/// Expects that rays of bundles bring the same bits whether one work-item takes a bundle, as on CPUs, or many
+/// divide it, as on GPUs.
+inline void expect_same_by_any_division(const Device& shared, const Scene& scene,
+                                        const std::vector<ReceiverPacket>& packets,
+                                        const ReceiverPathSettings& settings) {
+    const auto by_items = [&](std::uint32_t items) {
+        Device device(shared.entry(), shared.options());
+        Tunables tunables = shared.tunables();
+        tunables.bundle_local_size = items;
+        device.set_tunables(tunables);
+        return brought(device, scene, packets, true, settings, 1).mean;
+    };
+    EXPECT_EQ(by_items(64), by_items(1));
 }
 
 }  // namespace nearlight::core::test

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/image/image.h"
+#include "host/reference/synthetic_scene.h"
 #include "host/scene/material_model.h"
 #include "host/scene/mitsuba/round_lamp.h"
 #include "host/scene/mitsuba/shape_mesh.h"
@@ -41,12 +42,7 @@ inline void add_triangle(Scene& scene, Vec3 a, Vec3 b, Vec3 c, uint material) {
 /// Adds the parallelogram corner, corner + s, corner + s + t, corner + t, whose front is on the side of s ×
 /// t.
 inline void add_quad(Scene& scene, Vec3 corner, Vec3 s, Vec3 t, uint material) {
-    const uint first = add_vertex(scene, corner);
-    add_vertex(scene, corner + s);
-    add_vertex(scene, corner + s + t);
-    add_vertex(scene, corner + t);
-    scene.triangles.push_back({first, first + 1, first + 2, material});
-    scene.triangles.push_back({first, first + 2, first + 3, material});
+    add_parallelogram(scene, corner, s, t, material);
 }
 
 /// A sphere about the origin of 20·4^subdivisions triangles whose fronts face the inside.
