@@ -75,21 +75,22 @@ std::optional<float> number_or_auto(const std::string& option, const std::string
 /// Adds the option --size, without which `size` is unchanged.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
 
-/// Adds an option whose value must be the name of a choice. The error for any other value lists the names.
-/// `value` is a Choice or an optional one.
+/// Adds an option whose value must be the name of a choice. The error for any other value lists the names,
+/// and completions offer them. `value` is a Choice or an optional one.
 template <typename Choice, typename Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& value,
                         const std::map<std::string, Choice>& choices, const std::string& description) {
-    const auto choose = [option, &value, choices](const std::string& text) {
+    const auto names = [](const auto& choice) { return choice.first; };
+    const auto choose = [option, &value, choices, names](const std::string& text) {
         const auto found = choices.find(text);
         if (found == choices.end()) {
-            throw Error(ErrorKind::invalid_argument,
-                        "unknown " + option + " '" + text + "'; choose one of: " +
-                            joined(choices, ", ", [](const auto& choice) { return choice.first; }));
+            throw Error(ErrorKind::invalid_argument, "unknown " + option + " '" + text +
+                                                         "'; choose one of: " + joined(choices, ", ", names));
         }
         value = found->second;
     };
-    return command.add_option_function<std::string>(option, choose, description)->type_name("NAME");
+    return command.add_option_function<std::string>(option, choose, description)
+        ->type_name("NAME:{" + joined(choices, ",", names) + "}");
 }
 
 }  // namespace nearlight::core

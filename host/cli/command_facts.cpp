@@ -28,8 +28,8 @@ std::vector<std::string> choices_among(const std::string& type) {
     return words;
 }
 
-/// The choices that the parser writes behind the name of a type, as in "on|off:{on,off}" or, where words
-/// stand for numbers, "NAME:{fast->0,slow->1} OR {0,1}".
+/// The choices that stand behind the name of a type, as in "NAME:{packets,rays}" of add_choice(), or
+/// "on|off:{on,off}" and, where words stand for numbers, "NAME:{fast->0,slow->1} OR {0,1}" of the parser.
 std::vector<std::string> choices_in(const std::string& type) {
     const std::size_t open = type.find('{');
     const std::size_t close = type.find('}', open);
@@ -39,43 +39,6 @@ std::vector<std::string> choices_in(const std::string& type) {
     std::vector<std::string> words = split(type.substr(open + 1, close - open - 1), ',');
     for (std::string& word : words) {
         word = word.substr(0, word.find("->"));
-    }
-    return words;
-}
-
-std::string without_brackets(const std::string& text) {
-    std::string plain;
-    int depth = 0;
-    for (const char c : text) {
-        depth += c == '(' ? 1 : 0;
-        if (depth == 0) {
-            plain += c;
-        }
-        depth -= c == ')' ? 1 : 0;
-    }
-    return plain;
-}
-
-/// The choices of an option whose description lists them behind a colon, as in "Gather kernel: packets (for
-/// CPUs), rays (for GPUs) or auto". The parser does not know them, because the error for other words names
-/// them.
-std::vector<std::string> choices_named(const std::string& value, const std::string& description) {
-    std::string list = without_brackets(description);
-    const std::size_t colon = list.find(": ");
-    if (value != "NAME" || colon == std::string::npos) {
-        return {};
-    }
-    list.erase(0, colon + 2);
-    if (const std::size_t last = list.find(" or "); last != std::string::npos) {
-        list.replace(last, 4, ", ");
-    }
-    std::vector<std::string> words = split(list, ',');
-    for (std::string& word : words) {
-        const std::size_t first = word.find_first_not_of(' ');
-        word = first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(' ') - first + 1);
-        if (word.empty() || word.find(' ') != std::string::npos) {
-            return {};
-        }
     }
     return words;
 }
@@ -100,9 +63,6 @@ OptionFacts option_facts(const CLI::Option& option) {
     const bool has_value = facts.is_positional || option.get_items_expected_max() > 0;
     if (has_value) {
         facts.choices = choices_in(option.get_type_name());
-        if (facts.choices.empty()) {
-            facts.choices = choices_named(value_word(option), facts.description);
-        }
         facts.value = facts.is_positional ? facts.names.front() : value_word(option);
         if (facts.choices.empty()) {
             facts.choices = choices_among(facts.value);

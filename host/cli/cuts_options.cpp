@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/cuts_options.h"
 
+#include <fmt/format.h>
+
 #include "host/samplers/sampler.h"
 
 namespace nearlight::core {
@@ -25,6 +27,12 @@ bool has_cuts(const std::string& cuts, const RenderSettings& settings) {
     const SamplingSettings& sampling = settings.sampling;
     if (cuts == "off" && sampling.set_count) {
         throw Error(ErrorKind::invalid_argument, "--vpl-set needs --cuts on or auto, not off");
+    }
+    if (sampling.set_count && *sampling.set_count < sampling.vpl_count) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            fmt::format("--vpl-set {} is smaller than --vpls {}, which is what a pixel asks of the set",
+                        *sampling.set_count, sampling.vpl_count));
     }
     const bool wanted = cuts == "on" || sampling.set_count;
     if (wanted && settings.gather.roulette > 0.0f) {

@@ -10,15 +10,29 @@ namespace nearlight::core {
 namespace {
 
 /// Adds an option that chooses an entry of a table, whose names and descriptions its help lists.
-template <typename Value, typename Entries, typename Entry>
-void add_described_choice(CLI::App& command, const char* option, Value& value, const Entries& entries,
-                          Value Entry::*entry_value, std::string help) {
-    std::map<std::string, Value> choices;
+template <typename Choice, typename Value, typename Entries, typename Entry>
+CLI::Option* add_described_choice(CLI::App& command, const char* option, Value& value, const Entries& entries,
+                                  Choice Entry::*entry_choice, std::string help) {
+    std::map<std::string, Choice> choices;
     for (const Entry& entry : entries) {
         help += fmt::format("{}{} ({})", choices.empty() ? "" : ", ", entry.name, entry.description);
-        choices.emplace(entry.name, entry.*entry_value);
+        choices.emplace(entry.name, entry.*entry_choice);
     }
-    add_choice(command, option, value, choices, help)->default_str(to_string(value));
+    return add_choice(command, option, value, choices, help);
+}
+
+/// The sampler close-range alone has policies and a fraction of VPLs in the close range.
+void check_is_close_range(const MethodTexts& texts, const SamplingSettings& sampling) {
+    if (sampling.sampler == SamplerKind::close_range) {
+        return;
+    }
+    const char* const option = texts.policy                     ? "--policy"
+                               : texts.close_fraction != "auto" ? "--close-fraction"
+                                                                : nullptr;
+    if (option != nullptr) {
+        throw Error(ErrorKind::invalid_argument, fmt::format("{} is for the sampler close-range, not for {}",
+                                                             option, to_string(sampling.sampler)));
+    }
 }
 
 }  // namespace
@@ -41,9 +55,11 @@ void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot) 
 void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts) {
     SamplingSettings& sampling = settings.sampling;
     add_described_choice(command, "--sampler", sampling.sampler, all_samplers(), &SamplerEntry::kind,
-                         "Where to put VPLs: ");
-    add_described_choice(command, "--policy", sampling.policy, all_policies(), &PolicyEntry::policy,
-                         "Policy of the sampler close-range: ");
+                         "Where to put VPLs: ")
+        ->default_str(to_string(sampling.sampler));
+    add_described_choice(command, "--policy", texts.policy, all_policies(), &PolicyEntry::policy,
+                         "Policy of the sampler close-range: ")
+        ->default_str(to_string(sampling.policy));
     command
         .add_option("--vpls", sampling.vpl_count,
                     "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
@@ -123,6 +139,8 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
 }
 
 void settle(const MethodTexts& texts, RenderSettings& settings) {
+    check_is_close_range(texts, settings.sampling);
+    settings.sampling.policy = texts.policy.value_or(settings.sampling.policy);
     settings.sampling.close_fraction = number_or_auto("--close-fraction", texts.close_fraction, 0.0f, 1.0f);
     settings.view.range = number_or_auto("--range", texts.range, 1e-6f, 1e9f);
     settings.view.clamp_radius = number_or_auto("--clamp-radius", texts.clamp_radius, 0.0f, 1e9f);

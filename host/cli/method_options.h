@@ -2,7 +2,7 @@
 // The options that say how light is computed, for commands that make pictures.
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 
 #include "host/cli/command.h"
@@ -13,6 +13,7 @@ namespace nearlight::core {
 
 /// Values of options that are settled after the whole line is read.
 struct MethodTexts {
+    std::optional<Policy> policy;  ///< empty: the default
     std::string cuts = "auto";
     std::string close_fraction = "auto";
     std::string range = "auto";
@@ -32,7 +33,7 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
 void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot);
 
 /// Puts the settled values into the settings. Throws Error(ErrorKind::invalid_argument) for a value out of
-/// range.
+/// range, and for an option that would have no effect beside others.
 void settle(const MethodTexts& texts, RenderSettings& settings);
 
 }  // namespace nearlight::core

@@ -16,6 +16,7 @@ struct Image {
     int height = 0;
     std::vector<std::string> channels;
     std::vector<float> values;  ///< width·height·channels.size()
+    bool holds_floats = false;  ///< the file that it was read from has floats, not whole numbers
 
     [[nodiscard]] std::size_t channel_count() const { return channels.size(); }
     [[nodiscard]] std::size_t pixel_count() const {

@@ -91,12 +91,15 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
     if (!fits_in_file(spec.image_bytes(true), bytes.empty() ? fs::file_size(file, ignored) : bytes.size())) {
         fail_image("cannot read image", file, "its header promises more pixels than it can hold");
     }
-    Image image{spec.width, spec.height, spec.channelnames, {}};
+    Image image{.width = spec.width,
+                .height = spec.height,
+                .channels = spec.channelnames,
+                .holds_floats = spec.format.is_floating_point()};
     if (!read_pixels(*input, image.values) || input->has_error()) {
         fail_image("cannot read image", file, input->geterror());
     }
-    const bool is_integer = !spec.format.is_floating_point();
-    return {std::move(image), is_integer && spec.get_string_attribute("oiio:ColorSpace") != "Linear"};
+    const bool is_srgb = !image.holds_floats && spec.get_string_attribute("oiio:ColorSpace") != "Linear";
+    return {std::move(image), is_srgb};
 }
 
 Metadata decode_metadata(const fs::path& file) {

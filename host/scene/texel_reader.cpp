@@ -63,16 +63,15 @@ bool pack_bytes(std::vector<std::uint32_t>& words, const Source& source) {
 
 }  // namespace
 
-TexelReader::TexelReader(const Image& image, const TexelRule& rule, bool holds_floats)
+TexelReader::TexelReader(const Image& image, const TexelRule& rule)
     : image_(image),
       rule_(rule),
-      holds_floats_(holds_floats),
       channel_(rule.prefers_alpha && is_transparent(image) ? 3 : rule.channel),
-      gamma_(is_linear() ? 1.0f : (rule.gamma > 0.0f || !holds_floats ? rule.gamma : 1.0f)) {}
+      gamma_(is_linear() ? 1.0f : (rule.gamma > 0.0f || !image.holds_floats ? rule.gamma : 1.0f)) {}
 
 std::optional<std::vector<std::uint32_t>> TexelReader::bytes() const {
     const bool is_standard = gamma_ == 0.0f || gamma_ == 1.0f;
-    if (holds_floats_ || !is_standard) {
+    if (image_.holds_floats || !is_standard) {
         return std::nullopt;
     }
     std::vector<std::uint32_t> words(image_.pixel_count());

@@ -45,9 +45,8 @@ inline std::array<float, 3> rgb_at(const Image& image, std::size_t pixel) {
 
 class TexelReader {
   public:
-    /// Keeps references to the image and the rule. `holds_floats` says that the file has colours as linear
-    /// floats.
-    TexelReader(const Image& image, const TexelRule& rule, bool holds_floats);
+    /// Keeps references to the image and the rule.
+    TexelReader(const Image& image, const TexelRule& rule);
 
     /// All texels as words of four bytes (red is the lowest, alpha is 255), if that keeps the image's numbers
     /// as they are; otherwise nothing.
@@ -68,7 +67,6 @@ class TexelReader {
 
     const Image& image_;
     const TexelRule& rule_;
-    bool holds_floats_;
     int channel_;  // −1: all
     float gamma_;  // 0: sRGB
 };

@@ -12,14 +12,6 @@
 namespace nearlight::core {
 namespace {
 
-bool holds_floats(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return extension == ".exr" || extension == ".hdr" || extension == ".pfm" || extension == ".rgbe";
-}
-
 /// A number that textures can hold.
 float tame(float value, bool is_signed) {
     if (std::isnan(value)) {
@@ -66,19 +58,13 @@ int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const s
         note_unreadable_texture(error, file, line, notes_);
         return -1;
     }
-    entry->second =
-        add_texels(*pixels, image.file.filename().string(), rule, holds_floats(image.file), {file, line, {}});
+    entry->second = add(*pixels, image.file.filename().string(), rule, file, line);
     return entry->second;
 }
 
 int TextureLoader::add(const Image& image, const std::string& name, const TexelRule& rule,
                        const std::filesystem::path& file, int line) {
-    return add_texels(image, name, rule, false, {file, line, {}});
-}
-
-int TextureLoader::add_texels(const Image& image, const std::string& name, const TexelRule& rule,
-                              bool holds_floats, const Note& place) {
-    const TexelReader reader(image, rule, holds_floats);
+    const TexelReader reader(image, rule);
     TextureImage texture{name, image.width, image.height, reader.byte_format(), {}};
     if (auto bytes = reader.bytes()) {
         texture.words = std::move(*bytes);
@@ -87,7 +73,7 @@ int TextureLoader::add_texels(const Image& image, const std::string& name, const
         const std::size_t tamed = pack_halves(reader, image.pixel_count(), rule.is_signed, texture.words);
         if (tamed > 0) {
             notes_.approximation(
-                place.file, place.line,
+                file, line,
                 std::to_string(tamed) + " texels of '" + name +
                     "' are not finite, negative or above 65504; they are replaced by 0 or the limit");
         }

@@ -35,9 +35,6 @@ class TextureLoader {
             const std::filesystem::path& file, int line);
 
   private:
-    int add_texels(const Image& image, const std::string& name, const TexelRule& rule, bool holds_floats,
-                   const Note& place);
-
     using Key = std::tuple<std::filesystem::path, const std::byte*, TexelRule>;
 
     Scene& scene_;

@@ -231,6 +231,15 @@ TEST_F(BadInput, CamerasAndLight) {
     expect_error(render(scene, "--tonemap aces"), 2, "unknown --tonemap 'aces'; choose one of: agx, filmic");
 }
 
+TEST_F(BadInput, OptionsWithoutEffect) {
+    const auto scene = good_scene();
+    expect_error(render(scene, "--sampler rejection --policy paper"), 2,
+                 "--policy is for the sampler close-range, not for rejection");
+    expect_error(render(scene, "--sampler local --close-fraction 0.5"), 2,
+                 "--close-fraction is for the sampler close-range, not for local");
+    expect_error(render(scene, "--vpls 100 --vpl-set 99"), 2, "--vpl-set 99 is smaller than --vpls 100");
+}
+
 TEST_F(BadInput, Outputs) {
     const auto scene = good_scene();
     expect_error(render(scene, "-o " + quoted(folder_ / "x.jpg")), 2,

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "host/cli/command.h"
 #include "host/cli/completions.h"
 #include "host/cli/man_pages.h"
 #include "tests/cli/run_program.h"
@@ -27,9 +28,8 @@ CommandFacts small_program() {
     CLI::App& part = *app.add_subcommand("part", "A part; it's small");
     static std::string text;
     static bool flag = false;
-    part.add_option("--mode", text, "How: fast (quickly), slow or none")
-        ->type_name("NAME")
-        ->default_str("fast");
+    const std::map<std::string, bool> modes{{"fast", true}, {"slow", false}};
+    add_choice(part, "--mode", flag, modes, "How to go, quickly or not")->default_str("fast");
     const std::map<std::string, int> numbers{{"one", 1}, {"two", 2}};
     static int number = 1;
     part.add_option("--number", number, "A number")
@@ -56,8 +56,9 @@ TEST(CommandFacts, AreThoseOfTheParser) {
     for (const OptionFacts& option : part.options) {
         options[option.names.back()] = option;
     }
-    EXPECT_THAT(options["--mode"].choices, ElementsAre("fast", "slow", "none"));
+    EXPECT_THAT(options["--mode"].choices, ElementsAre("fast", "slow"));
     EXPECT_EQ(options["--mode"].default_value, "fast");
+    EXPECT_EQ(options["--mode"].value, "NAME");
     EXPECT_THAT(options["--other"].choices, IsEmpty());
     EXPECT_THAT(options["--number"].choices, ElementsAre("one", "two"));
     EXPECT_THAT(options["--switch"].choices, ElementsAre("on", "off"));
@@ -169,6 +170,9 @@ TEST_F(Documents, BashCompletes) {
     EXPECT_THAT(bash_offers("nearlight render --vp"), ElementsAre("--vpl-keys", "--vpl-set", "--vpls"));
     EXPECT_THAT(bash_offers("nearlight render --compensate ''"), ElementsAre("off", "on"));
     EXPECT_THAT(bash_offers("nearlight render --sampler m"), ElementsAre("metropolis"));
+    EXPECT_THAT(bash_offers("nearlight render --tonemap ''"),
+                ElementsAre("agx", "filmic", "linear", "neutral"));
+    EXPECT_THAT(bash_offers("nearlight render --exr-compression d"), ElementsAre("dwaa"));
     EXPECT_THAT(bash_offers("nearlight render sce"), ElementsAre("scene.xml"));
     EXPECT_THAT(bash_offers("nearlight render -o sce"), ElementsAre("scene.xml"));
     EXPECT_THAT(bash_offers("nearlight render --environment s"), ElementsAre("scene.xml", "sky"));

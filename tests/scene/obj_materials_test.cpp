@@ -79,6 +79,26 @@ TEST(Obj, HighlightsAreRoughPlastic) {
     EXPECT_TRUE(has_note(scene, "map_Ns"));
 }
 
+TEST(Obj, EntriesWithoutAColorAreGrey) {
+    const SceneFiles files;
+    Scene scene;
+    expect_near(only_material(files, "Ka 1 1 1\nNs 10\nillum 2\n", &scene).reflectance.value,
+                {0.5f, 0.5f, 0.5f});
+    EXPECT_TRUE(has_note(scene, "m.mtl:1: a material without any colour"));
+    for (const char* black : {"Kd 0 0 0\n", "Ke 5 5 5\n"}) {
+        expect_near(only_material(files, black, &scene).reflectance.value, {0, 0, 0});
+        EXPECT_FALSE(has_note(scene, "without any colour")) << black;
+    }
+}
+
+TEST(Obj, HaloIsNoOpacity) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl m\nKd 1 1 1\nd -halo 0.25\n");
+    const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    EXPECT_FLOAT_EQ(scene.materials[scene.triangles.at(0).material].reflectance.value.x, 0.25f);
+    EXPECT_TRUE(has_note(scene, "m.mtl:1: the opacity (d -halo)"));
+}
+
 TEST(Obj, RoughnessAndMetalnessArePrincipled) {
     const SceneFiles files;
     const Material metal =

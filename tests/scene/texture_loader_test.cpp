@@ -51,6 +51,32 @@ TEST_F(TextureLoaderTest, MoreBitsBecomeHalves) {
     expect_near(texel_color(add(one_texel({0.5f, 1, 0}), {.gamma = 2.0f}), 0), {0.25f, 1, 0});
 }
 
+/// A TIFF file of one grey texel: a header, the entries of its directory, and the number behind them.
+std::string tiff_of_float(float grey) {
+    constexpr std::uint16_t kShort = 3;
+    constexpr std::uint16_t kLong = 4;
+    struct Entry {
+        std::uint16_t tag, type;
+        std::uint32_t count, value;
+    };
+    constexpr std::uint32_t kEnd = 8 + 2 + 10 * sizeof(Entry) + 4;
+    const Entry entries[] = {
+        {256, kShort, 1, 1}, {257, kShort, 1, 1}, {258, kShort, 1, 32},   // width, height, bits
+        {259, kShort, 1, 1}, {262, kShort, 1, 1}, {273, kLong, 1, kEnd},  // plain, grey, where
+        {277, kShort, 1, 1}, {278, kShort, 1, 1}, {279, kLong, 1, 4},     // channels, rows, bytes
+        {339, kShort, 1, 3}};                                             // floats
+    std::string text("II*\0\x08\0\0\0\x0a\0", 10);
+    text.append(reinterpret_cast<const char*>(entries), sizeof(entries)).append(4, '\0');
+    return text.append(reinterpret_cast<const char*>(&grey), sizeof(grey));
+}
+
+TEST_F(TextureLoaderTest, FilesOfFloatsAreLinear) {
+    const SceneFiles files;
+    const int image = loader_.load({.file = files.write("grey.tif", tiff_of_float(0.3f))}, {}, "file.xml", 3);
+    ASSERT_EQ(image, 0);
+    expect_near(texel_color(scene_.images[0], 0), {0.3f, 0.3f, 0.3f}, 1e-4f);
+}
+
 TEST_F(TextureLoaderTest, GreyImagesHaveThreeEqualChannels) {
     expect_near(texel_color(add(one_texel({1})), 0), {1, 1, 1});
     expect_near(texel_color(add(one_texel({1, 0})), 0), {1, 1, 1});  // the second channel is alpha

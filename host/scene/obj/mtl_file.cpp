@@ -42,10 +42,15 @@ bool is_number(const std::string& word) {
 }
 
 /// Gives the options -s, -o and -t of textures three numbers, where they have one or two, because
-/// tinyobjloader takes the name of the file for a missing one.
+/// tinyobjloader takes the name of the file for a missing one. The option -halo goes behind its number,
+/// because tinyobjloader takes it for the number.
 void complete_options(std::string& text) {
     std::string completed;
     for_each_line(text, [&](int, std::string_view line) {
+        if (starts_with_word(line, "d") && value_after(line, "d").starts_with("-halo ")) {
+            completed.append("d " + value_after(line, "d").substr(6) + " -halo\n");
+            return true;
+        }
         const bool is_map = line.find("map_") != std::string_view::npos || starts_with_word(line, "bump") ||
                             starts_with_word(line, "norm");
         if (!is_map || line.find(" -") == std::string_view::npos) {

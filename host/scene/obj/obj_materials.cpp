@@ -2,16 +2,17 @@
 #include "host/scene/obj/obj_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
 
-#include "host/scene/file_text.h"
 #include "host/scene/material_model.h"
 #include "host/scene/model_scene.h"
 #include "host/scene/obj/mtl_entry.h"
 #include "host/scene/obj/mtl_file.h"
+#include "host/scene/obj/mtl_textures.h"
 #include "host/scene/obj/obj_images.h"
 #include "host/scene/scene_names.h"
 #include "host/scene/texture.h"
@@ -29,13 +30,6 @@ struct MaterialSource {
     TextLine begin;
     const Mesh& mesh;  // the file's, and the group of the triangles that have the material
     uint group;
-};
-
-/// A texture of an entry: the file's name, its options, and the word before them.
-struct TextureSource {
-    const std::string& name;
-    const tinyobj::texture_option_t& options;
-    const char* keyword;
 };
 
 /// Whether the texture of a bump map is a map of normals, as which Blender and others write them: its mean
@@ -69,9 +63,15 @@ class ObjMaterials {
         notes_.approximation(source.library.file, source.begin.number, what);
     }
 
-    /// Whether the entry has a line that begins with this word.
-    static bool says(const MaterialSource& source, const char* word) {
-        return find_in_block(source.library.text, source.begin, "newmtl", word, "") > 0;
+    /// Whether the entry has a line that begins with this word, and has this value somewhere.
+    static bool says(const MaterialSource& source, const char* word, const char* value = "") {
+        return find_in_block(source.library.text, source.begin, "newmtl", word, value) > 0;
+    }
+
+    /// Whether the entry gives a colour to any light that the surface reflects, lets through or emits.
+    static bool says_color(const MaterialSource& source) {
+        return std::ranges::any_of(std::array{"Kd", "map_Kd", "Ks", "map_Ks", "Ke", "map_Ke"},
+                                   [&](const char* word) { return says(source, word); });
     }
 
     void warn_of_what_is_left_out(const MaterialSource& source) {
@@ -207,6 +207,10 @@ class ObjMaterials {
         if (!(clamped(given) == given)) {
             approximate(source, "a diffuse reflectance (Kd) lies outside 0 to 1 and is limited");
         }
+        if (!says_color(source)) {
+            approximate(source, "a material without any colour (Kd, Ks, Ke) is grey");
+            material = diffuse_material({0.5f, 0.5f, 0.5f});
+        }
         if (!source.entry.diffuse_texname.empty()) {
             const int texture =
                 load(source, {source.entry.diffuse_texname, source.entry.diffuse_texopt, "map_Kd"}, {});
@@ -293,6 +297,9 @@ class ObjMaterials {
             d = 1.0f;
         }
         Parameter opacity = parameter_of(std::clamp(d, 0.0f, 1.0f));
+        if (says(source, "d", "-halo")) {
+            approximate(source, "the opacity (d -halo) counts for all directions");
+        }
         if (!(d >= 0.0f && d <= 1.0f)) {
             approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
         }
@@ -304,43 +311,13 @@ class ObjMaterials {
         return add(mask_material(opacity, material));
     }
 
-    /// The texture, or −1 if the entry names none or its image cannot be read, which a note tells.
-    int load(const MaterialSource& source, const TextureSource& texture, TexelRule rule) {
-        if (texture.name.empty()) {
-            return -1;
-        }
-        const tinyobj::texture_option_t& options = texture.options;
-        if (const std::size_t channel = std::string_view("rgb").find(options.imfchan);
-            rule.is_number && channel != std::string_view::npos) {
-            rule.channel = static_cast<int>(channel);
-            rule.prefers_alpha = false;
-        }
-        const int found =
-            find_in_block(source.library.text, source.begin, "newmtl", texture.keyword, texture.name);
-        const int line = found > 0 ? found : source.begin.number;
-        const int image = textures_.load({.file = resolve_path(source.library.file, texture.name)}, rule,
-                                         source.library.file, line);
-        if (image < 0) {
-            return -1;
-        }
-        if (options.contrast != 1.0f || options.brightness != 0.0f || options.turbulence[0] != 0.0f ||
-            options.turbulence[1] != 0.0f) {
-            notes_.approximation(source.library.file, line, "-mm and -t of textures are left out");
-        }
-        SceneTexture placed = plain_texture(image);
-        placed.parameters.u_scale = options.scale[0];
-        placed.parameters.v_scale = options.scale[1];
-        placed.parameters.u_offset = options.origin_offset[0];
-        placed.parameters.v_offset = options.origin_offset[1];
-        if (options.clamp) {
-            placed.parameters.wrap_s = placed.parameters.wrap_t = NEARLIGHT_WRAP_CLAMP;
-        }
-        return add_texture(scene_, placed);
+    int load(const MaterialSource& source, const TextureSource& texture, const TexelRule& rule) {
+        return textures_.load(source.library, source.begin, texture, rule);
     }
 
     Scene& scene_;
     NoteSink& notes_;
-    TextureLoader textures_;
+    MtlTextures textures_;
     std::map<Coat, Material> coats_;
     bool has_colors_;
     int vertex_color_ = -1;  // the texture that stands for colours of vertices
