@@ -12,6 +12,8 @@
 // shared_lights.cl, shared_sky.cl, shared_veiled.cl and shared_reflections.cl to take further. Reflections
 // want the `spacing` of each receiver, which receiver_spacing finds: one work-item for each `part` receivers
 // of a bundle, which `part` divides; any work-group size.
+//
+// caustic_errors says what receivers gain if they aim at mirrors and glass.
 
 #include "lib/lanes.cl"
 #include "lib/receiver_path.cl"
@@ -44,6 +46,32 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
     return limits;
 }
 
+static inline ReceiverPoint receiver_point_of(const global ReceiverPacket* receiver, uint lane) {
+    ReceiverPoint at;
+    at.x = receiver_position(receiver, lane);
+    at.n = receiver_normal(receiver, lane);
+    at.mesh_n = receiver_mesh_normal(receiver, lane);
+    at.curve = receiver_curve(receiver, lane);
+    return at;
+}
+
+/// Where a receiver aims beside its other rays.
+static inline CausticAim receiver_aim(const CausticTable* table, const global CausticCell* cells,
+                                      const global Vec3* targets, float3 x, uint aimed_rays,
+                                      uint cosine_rays) {
+    CausticAim aim = caustic_aim_at(table, cells, targets, x);
+    aim.aimed_rays = aimed_rays;
+    aim.cosine_rays = cosine_rays;
+    return aim;
+}
+
+/// The random numbers of a receiver.
+static inline uint4 receiver_keys(const global ReceiverPacket* receiver, uint lane, float3 x, uint seed) {
+    const uint sequence = receiver->sequence[lane];
+    return random_uint4(sequence != 0 ? (uint4)(sequence, 0x9e1fu, 0x70a7u, seed)
+                                      : (uint4)(as_uint(x.x), as_uint(x.y), as_uint(x.z), seed));
+}
+
 kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global ReceiverPacket* restrict receivers,
                            ReceiverPathParams params, global IrradiancePacket* restrict direct,
                            global IrradiancePacket* restrict indirect,
@@ -60,11 +88,7 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
     }
     const SceneView scene = SCENE_VIEW;
     const global ReceiverPacket* receiver = receivers + packet;
-    ReceiverPoint at;
-    at.x = receiver_position(receiver, lane);
-    at.n = receiver_normal(receiver, lane);
-    at.mesh_n = receiver_mesh_normal(receiver, lane);
-    at.curve = receiver_curve(receiver, lane);
+    const ReceiverPoint at = receiver_point_of(receiver, lane);
     ReceivedLight light = nothing_received();
     Finds finds = nothing_shared();
     const SceneView solids = solids_alone(scene);
@@ -77,15 +101,11 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
     if (dot(at.n, at.n) > 0.0f) {
         PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
         if (params.aimed_count > 0) {
-            limits.aim = caustic_aim_at(&caustic_table, caustic_cells, caustic_targets, at.x);
-            limits.aim.aimed_rays = params.aimed_count;
-            limits.aim.cosine_rays = params.path_count;
+            limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x,
+                                      params.aimed_count, params.path_count);
         }
-        const uint sequence = receiver->sequence[lane];
-        const uint4 key = sequence != 0
-                              ? (uint4)(sequence, 0x9e1fu, 0x70a7u, params.seed)
-                              : (uint4)(as_uint(at.x.x), as_uint(at.x.y), as_uint(at.x.z), params.seed);
-        light = received_light(&scene, &at, &limits, random_uint4(key), &finds);
+        light =
+            received_light(&scene, &at, &limits, receiver_keys(receiver, lane, at.x, params.seed), &finds);
     }
     store_irradiance(direct + packet, lane, light.direct);
     store_irradiance(indirect + packet, lane, light.indirect);
@@ -102,6 +122,57 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
         found_reflections[index] = kept_light(&finds.reflections.light);
         reflections[index] = finds.reflections.surface;
     }
+}
+
+/// The squared error that the light of lamps over mirrors and glass has where receivers send
+/// cosine-distributed rays alone, and where they aim rays besides: squared W/m², summed over the channels.
+///
+/// One work-item for each receiver; any work-group size. A ray in the direction ω, in which a
+/// cosine-distributed ray brings C(ω), has the densities p of those and q of aimed ones. With n
+/// cosine-distributed and m aimed rays, the second moment is ∫ C²·p²/(n·p + m·q) dω by the balance heuristic,
+/// and ∫ C²·p/n dω without aimed rays. Aimed rays estimate both integrals, because cosine-distributed ones
+/// seldom meet what makes the error. The square of the mean, which the variance lacks, is at most the part ∫
+/// p dω of the second moment, over the directions where C is not 0.
+kernel void caustic_errors(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
+                           ReceiverPathParams params, global float* restrict unaimed_errors,
+                           global float* restrict aimed_errors, CAUSTIC_PARAMETERS) {
+    const uint index = (uint)get_global_id(0);
+    const uint packet = index / NEARLIGHT_PACKET_SIZE;
+    const uint lane = index % NEARLIGHT_PACKET_SIZE;
+    if (packet >= params.packet_count) {
+        return;
+    }
+    const SceneView scene = SCENE_VIEW;
+    const ReceiverPoint at = receiver_point_of(receivers + packet, lane);
+    float unaimed = 0.0f;
+    float aimed = 0.0f;
+    float chance = 0.0f;  // ∫ p dω
+    if (dot(at.n, at.n) > 0.0f) {
+        PathLimits limits = receiver_limits(&params, receivers + packet, lane, false);
+        limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_count,
+                                  params.path_count);
+        const uint4 keys = receiver_keys(receivers + packet, lane, at.x, params.seed);
+        for (uint ray = 0; limits.aim.count > 0 && ray < NEARLIGHT_CAUSTIC_ERROR_RAYS; ++ray) {
+            const float2 u = sample_2d(ray, 3, keys.x);
+            const float3 light =
+                aimed_light(&scene, &at, &limits, u, random_uint4((uint4)(keys.y, keys.z, ~keys.w, ray)));
+            const float3 direction = caustic_direction(&limits.aim, u);
+            const float part = unaimed_part(&limits.aim, dot(at.n, direction), direction);  // np ÷ (np + mq)
+            if (is_black(light) || !(part > 0.0f && part < 1.0f)) {
+                continue;
+            }
+            const float cosine_rays = (float)params.path_count;
+            const float ratio = (float)params.aimed_count / ((1.0f - part) * cosine_rays);  // p ÷ (part·q)
+            const float error = dot(light, light) * ratio / cosine_rays;
+            unaimed += error / part;
+            aimed += error;
+            chance += part * ratio;
+        }
+    }
+    const float scale =
+        fmax(1.0f - chance / NEARLIGHT_CAUSTIC_ERROR_RAYS, 0.0f) / NEARLIGHT_CAUSTIC_ERROR_RAYS;
+    unaimed_errors[index] = unaimed * scale;
+    aimed_errors[index] = aimed * scale;
 }
 
 #define BUNDLE_ROWS (BUNDLE_RECEIVERS / 16)

@@ -68,7 +68,6 @@ struct PictureTask {
     std::size_t asked_count = 0;            ///< VplSet::asked_count
     std::optional<LocalLightPlan> local{};  ///< VplSet::local
     bool shares_sky = false;                ///< whether bundles share light of the sky
-    bool aims_at_caustics = false;          ///< whether receivers aim rays at mirrors and glass
 };
 static_assert(std::is_trivially_copyable_v<PictureTask>);
 

@@ -23,6 +23,9 @@ constexpr std::array<uint, 4> kLightSampleNumbers{16, 32, 64, 128};
 /// measurements on a CPU (bench/log/limit.md). Only their order of magnitude matters.
 constexpr double kPixelCost = 40;
 constexpr double kLightSampleCost = 0.75;
+constexpr double kAimedRayCost = 0.8;  ///< likewise
+/// Cosine-distributed rays for each that aims, about as many as each sample of a pixel has.
+constexpr uint kRaysOfAim = 4;
 constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
 constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in the dark count less
 /// Bounds of the parts of a receiver's relative squared error, before the weights below. A single ray that
@@ -183,10 +186,33 @@ ErrorParts mean_parts(std::span<const ErrorParts> parts) {
     return mean;
 }
 
+/// The means over receivers of what light over mirrors and glass adds to the error of a pixel.
+struct MeanCausticErrors {
+    double unaimed = 0;
+    double aimed = 0;
+};
+
+MeanCausticErrors caustic_errors(const BudgetPilot& pilot, std::span<const double> squares) {
+    const CausticErrors errors = pilot.stages.receiver_paths.caustic_errors(
+        {pilot.scene,
+         pilot.view.receivers,
+         pilot.view.packet_count,
+         {.path_count = kRaysOfAim, .aimed_count = 1, .max_edges = pilot.max_edges, .seed = pilot.seed}});
+    const double share =
+        static_cast<double>(kRaysOfAim) / pilot.rays_per_pixel / static_cast<double>(squares.size());
+    MeanCausticErrors mean;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        mean.unaimed += share * std::min(double{errors.unaimed[i]} / squares[i], kMaxErrorOfRay);
+        mean.aimed += share * std::min(double{errors.aimed[i]} / squares[i], kMaxErrorOfRay);
+    }
+    return mean;
+}
+
 /// A candidate, and how much time it needs for a given error, up to a factor.
 struct Candidate {
     RayBudget budget;
     double error = 0.0;
+    double cost = 0.0;
     double error_times_cost = std::numeric_limits<double>::infinity();
 };
 
@@ -197,10 +223,19 @@ Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
         const double error = mean.of_vpls + mean.of_ray / rays + mean.of_light_sample / light_samples;
         const double cost = kPixelCost + rays + kLightSampleCost * light_samples;
         if (error * cost < best.error_times_cost) {
-            best = {{radius, light_samples}, error, error * cost};
+            best = {{radius, light_samples}, error, cost, error * cost};
         }
     }
     return best;
+}
+
+bool aiming_pays(const Candidate& candidate, const MeanCausticErrors& caustic, uint rays) {
+    const double cost_of_aiming = kAimedRayCost * rays / kRaysOfAim;
+    const bool pays = (candidate.error + caustic.aimed) * (candidate.cost + cost_of_aiming) <
+                      (candidate.error + caustic.unaimed) * candidate.cost;
+    say_debug("light over mirrors and glass adds an error of " + std::to_string(caustic.unaimed) + ", or " +
+              std::to_string(caustic.aimed) + " by aimed rays: receivers " + (pays ? "aim" : "do not aim"));
+    return pays;
 }
 
 void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
@@ -231,6 +266,10 @@ RayBudget choose_ray_budget(const BudgetPilot& pilot) {
         }
     }
     best.budget.shared_limit = limit;
+    if (pilot.scene.caustic_aims.table.size > 0) {
+        best.budget.aims_at_caustics =
+            aiming_pays(best, caustic_errors(pilot, squares), pilot.rays_per_pixel);
+    }
     return best.budget;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of the clamp radius R for a set of VPLs, of the number of light samples, and of how much light
-// of one path a bundle shares, by a pilot. The picture's expectation does not depend on them, because rays of
-// receivers bring what the bounded geometry term takes away. Its noise does: with a small R, VPLs close to a
-// receiver are outliers, and with a large one, rays bring much of the light.
+// The choice of the clamp radius R for a set of VPLs, of the number of light samples, of how much light of
+// one path a bundle shares, and of whether receivers aim at mirrors and glass, by a pilot. The picture's
+// expectation does not depend on them, because rays of receivers bring what the bounded geometry term takes
+// away. Its noise does: with a small R, VPLs close to a receiver are outliers, and with a large one, rays
+// bring much of the light.
 #pragma once
 
 #include "host/samplers/sampler.h"
@@ -30,8 +31,9 @@ struct BudgetPilot {
 /// it. Candidates are 16 to 128 light samples, and, if the radius is open, its multiples by a power of two
 /// from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's receivers, which gives the VPLs'
 /// part of the error as the sum of their squares, and takes two light samples and two rays at each receiver,
-/// whose differences give the parts of both. What rays cost is counted in units of a typical device, so the
-/// result depends on no timing.
+/// whose differences give the parts of both. Where the
+/// scene has caustic aims, receivers aim if that lessens the error by more than it costs. What rays cost is
+/// counted in units of a typical device, so the result depends on no timing.
 RayBudget choose_ray_budget(const BudgetPilot& pilot);
 
 }  // namespace nearlight::core

@@ -11,7 +11,6 @@
 #include "host/cl/compile/program_compiler.h"
 #include "host/samplers/incident_light.h"
 #include "host/scene/ray_epsilon.h"
-#include "host/session/caustic_pilot.h"
 #include "host/session/key_vpls.h"
 #include "host/session/light_shares.h"
 #include "host/session/openings.h"
@@ -109,8 +108,6 @@ View Session::look(const SceneCamera& camera, const ViewSettings& settings, uint
             find_openings(leader.device(), leader.scene, scene_, view.pilot, view.close_range, seed);
         view.sky_part =
             sky_part(leader.device(), leader.bands.receiver_paths, leader.scene, view.pilot, seed);
-        view.aims_at_caustics = caustic_aims_pay(leader.device(), leader.bands.receiver_paths, leader.scene,
-                                                 view.pilot, view.bounce_count() + 1, seed);
         return view;
     });
 }

@@ -93,8 +93,7 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                               .plan = plan,
                               .asked_count = vpls.asked_count,
                               .local = vpls.local,
-                              .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart,
-                              .aims_at_caustics = view.aims_at_caustics};
+                              .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart};
     if (remote_.devices.empty()) {
         return std::make_shared<PlannedPicture>(PlannedPicture{.picture = picture, .window = window});
     }

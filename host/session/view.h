@@ -21,7 +21,6 @@ struct View {
     bool clamp_radius_is_open = false;
     bool has_ray_budget_pilot = true;  ///< whether Session::sample() runs the pilot of ray_budget.h
     float sky_part = 0.0f;             ///< of rays of what the camera sees that meet the sky (sky_part.h)
-    bool aims_at_caustics = false;     ///< whether receivers aim rays at mirrors and glass (caustic_pilot.h)
     uint max_depth = kUnlimitedPathDepth;  ///< maximum path length, as Mitsuba counts it
     uint seed = 0;                         ///< seed of the pilot view
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }

@@ -52,6 +52,7 @@ std::string header_of(const VplFile& set) {
             say("clamp_radius " + decimal(set.origin->ray_budget->clamp_radius));
             say("light_samples " + decimal(set.origin->ray_budget->direct_samples_per_pixel));
             say("shared_limit " + decimal(set.origin->ray_budget->shared_limit));
+            say("aims_at_caustics " + decimal(set.origin->ray_budget->aims_at_caustics ? 1u : 0u));
         }
     }
     text += "element vertex " + decimal(set.vpls.size()) + "\n";
@@ -101,7 +102,7 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                                " and its light samples from 1 to " + decimal(kMaxLightSamples));
         }
         origin.ray_budget = {.clamp_radius = radius, .direct_samples_per_pixel = samples};
-        // It is optional: without it, bundles share everything.
+        // The rest is optional: without it, bundles share everything, and receivers do not aim.
         if (!value_of(header, "shared_limit").empty()) {
             origin.ray_budget->shared_limit = number_of<float>(file, header, "shared_limit");
             if (!(origin.ray_budget->shared_limit >= 0.0f &&
@@ -109,6 +110,7 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                 fail_ply(file, "the header's shared limit must be a finite number that is 0 or more");
             }
         }
+        origin.ray_budget->aims_at_caustics = value_of(header, "aims_at_caustics") == "1";
     }
     return origin;
 }

@@ -20,6 +20,19 @@ uint shared_kinds(const ReceiverPathSettings& settings) {
            (settings.shares_reflections ? NEARLIGHT_SHARES_REFLECTIONS : 0u);
 }
 
+ReceiverPathParams params_of(const ReceiverBatch& batch, uint shared_kinds) {
+    const ReceiverPathSettings& settings = batch.settings;
+    return {.packet_count = static_cast<uint>(batch.packet_count),
+            .light_samples = settings.light_samples,
+            .path_count = settings.path_count,
+            .max_edges = settings.max_edges,
+            .clamp_radius = settings.clamp_radius,
+            .seed = settings.seed,
+            .shares = shared_kinds,
+            .aimed_count = settings.path_count > 0 ? settings.aimed_count : 0,
+            .shared_limit = settings.shared_limit};
+}
+
 }  // namespace
 
 FoundLights::FoundLights(Device& device, std::size_t packet_count, const ReceiverPathSettings& settings)
@@ -34,6 +47,7 @@ ReceiverPaths::ReceiverPaths(Device& device)
     : program_(device, "receiver_paths.cl", kViewProgram),
       receiver_paths_(program_, "receiver_paths"),
       receiver_spacing_(program_, "receiver_spacing"),
+      caustic_errors_(program_, "caustic_errors"),
       none_found_(device, 0, {}) {}
 
 void ReceiverPaths::run(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
@@ -53,22 +67,21 @@ void ReceiverPaths::run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePac
     launch(batch, shared_kinds(batch.settings), direct, indirect, found);
 }
 
+CausticErrors ReceiverPaths::caustic_errors(const ReceiverBatch& batch) {
+    const std::size_t count = batch.packet_count * NEARLIGHT_PACKET_SIZE;
+    Buffer<float> unaimed(program_.device(), count);
+    Buffer<float> aimed(program_.device(), count);
+    caustic_errors_.launch_items(count, batch.scene, batch.receivers, params_of(batch, 0u), unaimed, aimed,
+                                 batch.scene.caustic_aims);
+    return {unaimed.download(), aimed.download()};
+}
+
 void ReceiverPaths::launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
                            Buffer<IrradiancePacket>& indirect, FoundLights& found) {
-    const ReceiverPathSettings& settings = batch.settings;
-    const ReceiverPathParams params{.packet_count = static_cast<uint>(batch.packet_count),
-                                    .light_samples = settings.light_samples,
-                                    .path_count = settings.path_count,
-                                    .max_edges = settings.max_edges,
-                                    .clamp_radius = settings.clamp_radius,
-                                    .seed = settings.seed,
-                                    .shares = shared_kinds,
-                                    .aimed_count = settings.path_count > 0 ? settings.aimed_count : 0,
-                                    .shared_limit = settings.shared_limit};
     receiver_paths_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene,
-                                 VeilsForRays{batch.scene}, batch.receivers, params, direct, indirect,
-                                 found.near, found.sky, found.veiled, found.reflected, found.reflections,
-                                 found.spacing, batch.scene.caustic_aims);
+                                 VeilsForRays{batch.scene}, batch.receivers, params_of(batch, shared_kinds),
+                                 direct, indirect, found.near, found.sky, found.veiled, found.reflected,
+                                 found.reflections, found.spacing, batch.scene.caustic_aims);
 }
 
 }  // namespace nearlight::core

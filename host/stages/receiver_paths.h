@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
@@ -58,6 +59,13 @@ struct FoundLights {
     Buffer<float> spacing;                 ///< radius (m) of the neighbourhood of each receiver
 };
 
+/// The squared errors of receivers by light that lamps send over mirrors and glass: squared W/m², summed over
+/// the channels, one of each kind for each receiver.
+struct CausticErrors {
+    std::vector<float> unaimed;  ///< without rays that aim there
+    std::vector<float> aimed;    ///< with them
+};
+
 class ReceiverPaths {
   public:
     explicit ReceiverPaths(Device& device);
@@ -74,6 +82,10 @@ class ReceiverPaths {
     void run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
                      Buffer<IrradiancePacket>& indirect, FoundLights& found);
 
+    /// What the batch's receivers gain if they aim, by NEARLIGHT_CAUSTIC_ERROR_RAYS rays of each. The
+    /// settings must have rays of both kinds.
+    [[nodiscard]] CausticErrors caustic_errors(const ReceiverBatch& batch);
+
   private:
     void launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
                 Buffer<IrradiancePacket>& indirect, FoundLights& found);
@@ -81,6 +93,7 @@ class ReceiverPaths {
     Program program_;
     Kernel receiver_paths_;
     Kernel receiver_spacing_;
+    Kernel caustic_errors_;
     FoundLights none_found_;
 };
 

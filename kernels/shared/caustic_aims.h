@@ -26,6 +26,8 @@ typedef struct CausticCell {
 } CausticCell;
 #define NEARLIGHT_MAX_CAUSTIC_TARGETS 16u  // of a cell
 #define NEARLIGHT_CAUSTIC_LEVELS 10u
+/// Rays of a receiver by which it learns what aiming gains.
+#define NEARLIGHT_CAUSTIC_ERROR_RAYS 8u
 
 /// The cells stand in a table of `size` entries, a power of two: each at the hash of its coordinates and
 /// level, or at the next free entry from there.

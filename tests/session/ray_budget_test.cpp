@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <map>
 
+#include "host/reference/test_rooms.h"
+#include "host/scene/material_model.h"
 #include "tests/session/corner_scene.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
+#include "tests/support/small_scenes.h"
 
 namespace nearlight::core {
 namespace {
@@ -104,6 +107,36 @@ TEST_F(RayBudgetTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
     RenderSettings settings = pilot_settings(std::nullopt, 60);
     settings.gather.compensate = false;
     EXPECT_FLOAT_EQ(test::render_image(session, settings).report.ray_budget.clamp_radius, kPilotStart);
+}
+
+bool aims(Device& device, Scene scene) {
+    small_scenes::set_camera(scene, {-1.5, 1, 0}, {0, 0, 0}, 60);
+    Session session(device, scene);
+    const View view = session.look(scene.camera, {.width = 64, .height = 64}, 3);
+    return session.sample(view, {.vpl_count = 500}, 3).ray_budget.value().aims_at_caustics;
+}
+
+TEST_F(RayBudgetTest, AimingPaysBesideAMirror) {
+    on_each_device([](Device& device) { EXPECT_TRUE(aims(device, make_mirror_corner().scene)); });
+}
+
+TEST_F(RayBudgetTest, WithoutMirrorsNothingIsAimedAt) {
+    on_each_device([](Device& device) {
+        Scene scene = make_mirror_corner().scene;
+        scene.materials[1] = small_scenes::lambertian({0.5f, 0.5f, 0.5f});
+        EXPECT_FALSE(aims(device, scene));
+    });
+}
+
+/// Where lamps are in every direction, all rays over a mirror meet one.
+TEST_F(RayBudgetTest, AimingDoesNotPayWhereLampsFillTheView) {
+    on_each_device([](Device& device) {
+        Scene scene = make_mirror_corner().scene;
+        Material lamp = small_scenes::lambertian({0, 0, 0});
+        lamp.emission = parameter_of(1.0f);
+        small_scenes::add_inward_sphere(scene, 50, 1, add_two_sided(scene, lamp));
+        EXPECT_FALSE(aims(device, scene));
+    });
 }
 
 }  // namespace
