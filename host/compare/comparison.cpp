@@ -168,9 +168,9 @@ bool has_light(const Reference& reference) {
     return std::ranges::any_of(reference.picture.values, [](float value) { return value != 0.0f; });
 }
 
-std::string nothing_to_compare(const SceneFacts& facts) {
-    return "scene '" + facts.name + "' (" + facts.source +
-           "): no indirect light reaches the camera, so there is nothing to compare";
+Error objection_to_black(const SceneFacts& facts) {
+    return {ErrorKind::file, "scene '" + facts.name + "' (" + facts.source +
+                                 "): no indirect light reaches the camera, so there is nothing to compare"};
 }
 
 }  // namespace
@@ -200,12 +200,22 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
     const std::vector<std::string> names = unique_names(scenes);
     const auto reference_files = assign_reference_files(scenes, settings);
     make_folder(settings.output);
-    std::string left_out;  // what is said of the last scene that is left out
+    std::optional<Error> objection;  // to the last scene that is left out
+    const auto leave_out = [&](const Error& why) {
+        objection = why;
+        if (scenes.size() > 1) {
+            say_warning(std::string(why.what()) + "; it is left out");
+        }
+    };
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const std::string label =
             names[i] + (scenes.size() > 1 ? fmt::format(" ({} of {})", i + 1, scenes.size()) : "");
         observer.begin(label + ": preparing");
         SceneBench bench(device, scenes[i], names[i], settings, reference_files[i]);
+        if (bench.objection()) {
+            leave_out(*bench.objection());
+            continue;
+        }
         SceneRun run(device, bench, settings, observer);
         observer.begin(label + ": reference");
         std::optional<Reference> reference = run.find_reference(reference_files[i]);
@@ -213,10 +223,7 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
             return std::nullopt;
         }
         if (!has_light(*reference)) {
-            left_out = nothing_to_compare(bench.facts());
-            if (scenes.size() > 1) {
-                say_warning(left_out);
-            }
+            leave_out(objection_to_black(bench.facts()));
             continue;
         }
         const CellStore store = run.cell_store(*reference);
@@ -236,8 +243,8 @@ std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
         }
         comparison.scenes.push_back(std::move(scene));
     }
-    if (comparison.scenes.empty() && !left_out.empty()) {
-        throw Error(ErrorKind::file, left_out);
+    if (comparison.scenes.empty() && objection) {
+        throw Error(*objection);
     }
     return comparison;
 }

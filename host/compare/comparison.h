@@ -43,8 +43,9 @@ struct CompareObserver {
 
 /// Measures the cells that are missing in settings.output and makes tables, figures and plots. Returns
 /// nothing if it was stopped; the same call resumes. Settings must have passed check_settings(). Leaves
-/// out, with a warning, scenes of which no indirect light reaches the camera. Throws Error if this leaves
-/// none, or if a given reference does not fit.
+/// out, with a warning, scenes where there is nothing to compare: no light, nothing in view, paths that are too
+/// short, or no indirect light that reaches the camera. Throws Error if this leaves none, or if a given
+/// reference does not fit.
 std::optional<Comparison> compare(Device& device, std::span<const Scene> scenes,
                                   const CompareSettings& settings, const CompareObserver& observer);
 

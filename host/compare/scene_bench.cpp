@@ -24,12 +24,13 @@ void append_channels(std::span<const float> rows, std::size_t first, std::size_t
     }
 }
 
-void require_light(const Scene& scene, const std::string& name) {
-    if (build_emitter_table(scene).emitters.empty()) {
-        throw Error(ErrorKind::file,
-                    "scene '" + name + "' (" + scene.source.string() +
-                        "): nothing in it emits light, so there is nothing to compare; add a light");
+std::optional<Error> objection_to_dark(const Scene& scene, const std::string& name) {
+    if (!build_emitter_table(scene).emitters.empty()) {
+        return std::nullopt;
     }
+    return Error(ErrorKind::file,
+                 "scene '" + name + "' (" + scene.source.string() +
+                     "): nothing in it emits light, so there is nothing to compare; add a light");
 }
 
 float clamp_radius_of(const std::filesystem::path& reference_file) {
@@ -49,9 +50,11 @@ SceneBench::SceneBench(Device& device, const Scene& scene, const std::string& na
     facts_.source = scene.source.string();
     facts_.hash = scene_hash(scene);
     facts_.triangles = scene.triangles.size();
-    require_light(scene, name);
-    check(look());
-    facts_.clamp_radius = choose_clamp_radius(reference_file);
+    objection_ = objection_to_dark(scene, name);
+    if (!objection_) {
+        objection_ = objection_to(look());
+        facts_.clamp_radius = choose_clamp_radius(reference_file);
+    }
 }
 
 SceneBench::FirstLook SceneBench::look() {
@@ -81,23 +84,24 @@ SceneBench::FirstLook SceneBench::look() {
     return found;
 }
 
-void SceneBench::check(const FirstLook& found) const {
+std::optional<Error> SceneBench::objection_to(const FirstLook& found) const {
     const std::string scene = "scene '" + facts_.name + "' (" + facts_.source + ")";
     if (!found.surface) {
-        throw Error(ErrorKind::file,
-                    scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
-                        "turn it towards the scene");
+        return Error(ErrorKind::file,
+                     scene + ": the camera sees no diffuse surface, so there is nothing to compare; " +
+                         "turn it towards the scene");
     }
     if (facts_.max_depth < 3) {
-        throw Error(ErrorKind::file,
-                    scene + " has a depth of " + std::to_string(facts_.max_depth) +
-                        ", which leaves no indirect light to compare; use 3 or more",
-                    "max_depth");
+        return Error(ErrorKind::file,
+                     scene + " has a depth of " + std::to_string(facts_.max_depth) +
+                         ", which leaves no indirect light to compare; use 3 or more",
+                     "max_depth");
     }
     if (!found.close_vpls) {
         say_warning(scene + ": no light reaches the close range (range " + std::to_string(facts_.range) +
                     "), so close-range sampling is instant radiosity here");
     }
+    return std::nullopt;
 }
 
 float SceneBench::choose_clamp_radius(const std::optional<std::filesystem::path>& reference_file) const {

@@ -11,6 +11,7 @@
 #include "host/compare/reference.h"
 #include "host/compare/settings.h"
 #include "host/session/render.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 
@@ -42,11 +43,13 @@ struct Shot {
 class SceneBench {
   public:
     /// Compiles, builds the tree and renders a first picture with all light, from which the range and the
-    /// clamp radius of all methods follow. All arguments must outlive this object. Throws
-    /// Error(ErrorKind::file) if nothing emits light or nothing is in view.
+    /// clamp radius of all methods follow. All arguments must outlive this object.
     SceneBench(Device& device, const Scene& scene, const std::string& name, const CompareSettings& settings,
                const std::optional<std::filesystem::path>& reference_file);
 
+    /// Why there is nothing to compare: nothing emits light, nothing is in view, or paths are too short. Then
+    /// no other function may be called but facts().
+    [[nodiscard]] const std::optional<Error>& objection() const { return objection_; }
     [[nodiscard]] const SceneFacts& facts() const { return facts_; }
     /// The picture with direct and indirect light, R, G, B.
     [[nodiscard]] const Image& overview() const { return overview_; }
@@ -71,7 +74,8 @@ class SceneBench {
         bool close_vpls = false;  ///< whether light reaches the close range
     };
     FirstLook look();
-    void check(const FirstLook& found) const;
+    /// Warns if the first look found no light in the close range.
+    [[nodiscard]] std::optional<Error> objection_to(const FirstLook& found) const;
     [[nodiscard]] float choose_clamp_radius(const std::optional<std::filesystem::path>& reference_file) const;
     [[nodiscard]] RenderSettings render_settings(const Method& method, uint vpls, uint seed) const;
     std::optional<Shot> render_indirect(const RenderSettings& settings, const Progress& progress);
@@ -81,6 +85,7 @@ class SceneBench {
     const Scene& scene_;
     const CompareSettings& settings_;
     Session session_;
+    std::optional<Error> objection_;
     SceneFacts facts_;
     Image overview_;
     std::vector<float> depths_;

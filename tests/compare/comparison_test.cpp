@@ -211,18 +211,20 @@ TEST_F(ComparisonTest, ASceneWithNothingToCompareIsRefused) {
     });
 }
 
-/// A floor alone gets no light from other surfaces.
-TEST_F(ComparisonTest, ASceneWithoutIndirectLightIsLeftOutAmongOthers) {
+/// A floor alone gets no light from other surfaces; of the others one is dark, and one is out of view.
+TEST_F(ComparisonTest, ScenesWithNothingToCompareAreLeftOutAmongOthers) {
     on_each_device([&](Device& device) {
-        std::vector<Scene> scenes(2, corner());
+        std::vector<Scene> scenes(4, corner());
         scenes[0].name = "floor";
         scenes[0].triangles.resize(2);
+        scenes[2].delta_emitters.clear();
+        set_camera(scenes[3], {0.3, 0.2, -2.0}, {0.3, 0.2, -9.0}, 60);
         Stopper stopper;
         const std::optional<Comparison> comparison = compare(device, scenes, settings(), stopper.observer());
         ASSERT_TRUE(comparison);
         ASSERT_EQ(comparison->scenes.size(), 1u);
         EXPECT_EQ(comparison->scenes[0].facts.name, "corner");
-        scenes.pop_back();
+        scenes.resize(1);
         EXPECT_TRUE(mentions(error_of([&] { compare(device, scenes, settings(), stopper.observer()); }),
                              "nothing to compare"));
     });
