@@ -125,7 +125,7 @@ static inline void trace_light(const SceneView* scene, const CameraLimits* limit
                             .vpl_edges = max_edges,
                             .clamp_radius = INFINITY,
                             .light_samples = min(limits->light_samples, (uint)MAX_TRACED_LIGHT_SAMPLES),
-                            .path_count = 1,
+                            .rays = 1,
                             .bundle_rays = 0,
                             .sample = sequence_index(path),
                             .shared_limit = INFINITY,

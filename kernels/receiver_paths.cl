@@ -38,8 +38,8 @@ static inline PathLimits receiver_limits(const ReceiverPathParams* params,
                                .vpl_edges = max_edges < LONG_PATH ? max_edges : own_edges,
                                .clamp_radius = params->clamp_radius,
                                .light_samples = params->light_samples,
-                               .path_count = params->path_count,
-                               .bundle_rays = shares_sky ? NEARLIGHT_SKY_RAYS * params->path_count : 0,
+                               .rays = params->rays,
+                               .bundle_rays = shares_sky ? NEARLIGHT_SKY_RAYS * params->rays : 0,
                                .sample = receiver_sample(receiver, lane),
                                .shared_limit = params->shared_limit,
                                .aim = no_caustic_aim()};
@@ -100,9 +100,9 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
     }
     if (dot(at.n, at.n) > 0.0f) {
         PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
-        if (params.aimed_count > 0) {
-            limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x,
-                                      params.aimed_count, params.path_count);
+        if (params.aimed_rays > 0) {
+            limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_rays,
+                                      params.rays);
         }
         light =
             received_light(&scene, &at, &limits, receiver_keys(receiver, lane, at.x, params.seed), &finds);
@@ -124,18 +124,44 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
     }
 }
 
-/// The squared error that the light of lamps over mirrors and glass has where receivers send
-/// cosine-distributed rays alone, and where they aim rays besides: squared W/m², summed over the channels.
+/// Estimates of the squared error of light over mirrors and glass: squared W/m², summed over the channels.
+typedef struct CausticError {
+    float unaimed;  // where receivers send cosine-distributed rays alone
+    float aimed;    // where they aim rays besides
+    float chance;   // that a cosine-distributed ray meets such light
+} CausticError;
+
+/// Adds what an aimed ray says. `u` is uniform in the unit square.
 ///
-/// One work-item for each receiver; any work-group size. A ray in the direction ω, in which a
-/// cosine-distributed ray brings C(ω), has the densities p of those and q of aimed ones. With n
-/// cosine-distributed and m aimed rays, the second moment is ∫ C²·p²/(n·p + m·q) dω by the balance heuristic,
-/// and ∫ C²·p/n dω without aimed rays. Aimed rays estimate both integrals, because cosine-distributed ones
-/// seldom meet what makes the error. The square of the mean, which the variance lacks, is at most the part ∫
-/// p dω of the second moment, over the directions where C is not 0.
+/// A ray in the direction ω, in which a cosine-distributed ray brings C(ω), has the densities p of those and
+/// q of aimed ones. With n cosine-distributed and m aimed rays, the second moment of what they bring is ∫
+/// C²·p² ÷ (n·p + m·q) dω by the balance heuristic, and ∫ C²·p ÷ n dω without aimed rays. An aimed ray
+/// estimates both, and with them the chance ∫ p dω over all directions where C is not 0.
+static inline void add_caustic_error(CausticError* sum, const SceneView* scene, const ReceiverPoint* at,
+                                     const PathLimits* limits, float2 u, uint4 keys) {
+    const CausticAim* aim = &limits->aim;
+    const float3 light = aimed_light(scene, at, limits, u, keys);
+    const float3 direction = caustic_direction(aim, u);
+    const float part = unaimed_part(aim, dot(at->n, direction), direction);  // n·p ÷ (n·p + m·q)
+    if (is_black(light) || !(part > 0.0f && part < 1.0f)) {
+        return;
+    }
+    const float n = (float)aim->cosine_rays;
+    const float ratio = (float)aim->aimed_rays / ((1.0f - part) * n);  // p ÷ q ÷ part
+    const float error = dot(light, light) * ratio / n;                 // because light is part·C
+    sum->unaimed += error / part;
+    sum->aimed += error;
+    sum->chance += part * ratio;
+}
+
+/// The errors of receivers without aimed rays and with them, by NEARLIGHT_CAUSTIC_ERROR_RAYS aimed rays of
+/// each, because cosine-distributed ones seldom meet what makes the error. The variance lacks the square of
+/// the mean, which is at most the chance times the second moment.
+///
+/// One work-item for each receiver; any work-group size.
 kernel void caustic_errors(SCENE_PARAMETERS, const global ReceiverPacket* restrict receivers,
-                           ReceiverPathParams params, global float* restrict unaimed_errors,
-                           global float* restrict aimed_errors, CAUSTIC_PARAMETERS) {
+                           ReceiverPathParams params, global float* restrict unaimed,
+                           global float* restrict aimed, CAUSTIC_PARAMETERS) {
     const uint index = (uint)get_global_id(0);
     const uint packet = index / NEARLIGHT_PACKET_SIZE;
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
@@ -144,35 +170,20 @@ kernel void caustic_errors(SCENE_PARAMETERS, const global ReceiverPacket* restri
     }
     const SceneView scene = SCENE_VIEW;
     const ReceiverPoint at = receiver_point_of(receivers + packet, lane);
-    float unaimed = 0.0f;
-    float aimed = 0.0f;
-    float chance = 0.0f;  // ∫ p dω
+    CausticError sum = {0.0f, 0.0f, 0.0f};
     if (dot(at.n, at.n) > 0.0f) {
         PathLimits limits = receiver_limits(&params, receivers + packet, lane, false);
-        limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_count,
-                                  params.path_count);
+        limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_rays,
+                                  params.rays);
         const uint4 keys = receiver_keys(receivers + packet, lane, at.x, params.seed);
         for (uint ray = 0; limits.aim.count > 0 && ray < NEARLIGHT_CAUSTIC_ERROR_RAYS; ++ray) {
-            const float2 u = sample_2d(ray, 3, keys.x);
-            const float3 light =
-                aimed_light(&scene, &at, &limits, u, random_uint4((uint4)(keys.y, keys.z, ~keys.w, ray)));
-            const float3 direction = caustic_direction(&limits.aim, u);
-            const float part = unaimed_part(&limits.aim, dot(at.n, direction), direction);  // np ÷ (np + mq)
-            if (is_black(light) || !(part > 0.0f && part < 1.0f)) {
-                continue;
-            }
-            const float cosine_rays = (float)params.path_count;
-            const float ratio = (float)params.aimed_count / ((1.0f - part) * cosine_rays);  // p ÷ (part·q)
-            const float error = dot(light, light) * ratio / cosine_rays;
-            unaimed += error / part;
-            aimed += error;
-            chance += part * ratio;
+            add_caustic_error(&sum, &scene, &at, &limits, sample_2d(ray, 3, keys.x),
+                              random_uint4((uint4)(keys.y, keys.z, ~keys.w, ray)));
         }
     }
-    const float scale =
-        fmax(1.0f - chance / NEARLIGHT_CAUSTIC_ERROR_RAYS, 0.0f) / NEARLIGHT_CAUSTIC_ERROR_RAYS;
-    unaimed_errors[index] = unaimed * scale;
-    aimed_errors[index] = aimed * scale;
+    const float of_variance = fmax(1.0f - sum.chance / NEARLIGHT_CAUSTIC_ERROR_RAYS, 0.0f);
+    unaimed[index] = of_variance * sum.unaimed / NEARLIGHT_CAUSTIC_ERROR_RAYS;
+    aimed[index] = of_variance * sum.aimed / NEARLIGHT_CAUSTIC_ERROR_RAYS;
 }
 
 #define BUNDLE_ROWS (BUNDLE_RECEIVERS / 16)

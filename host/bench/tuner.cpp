@@ -106,18 +106,17 @@ Work picture_work(Device& device, const Room& room) {
         Buffer<IrradiancePacket> direct, indirect;
     };
     const auto state = std::make_shared<State>(device, room);
-    return {[state, &room] {
-                State& s = *state;
-                const DeviceScene& scene = room.session.device_scene();
-                s.camera_pass.run({scene, s.camera, room.view.camera.width, s.close_range, s.batch, 1},
-                                  {s.receivers, s.vertices});
-                s.receiver_paths.run({scene,
-                                      s.receivers,
-                                      s.packets,
-                                      {.light_samples = 4, .path_count = 1, .max_edges = 3, .seed = 1}},
-                                     s.direct, s.indirect);
-            },
-            [state] { return hash_of(state->direct); }};
+    return {
+        [state, &room] {
+            State& s = *state;
+            const DeviceScene& scene = room.session.device_scene();
+            s.camera_pass.run({scene, s.camera, room.view.camera.width, s.close_range, s.batch, 1},
+                              {s.receivers, s.vertices});
+            s.receiver_paths.run(
+                {scene, s.receivers, s.packets, {.light_samples = 4, .rays = 1, .max_edges = 3, .seed = 1}},
+                s.direct, s.indirect);
+        },
+        [state] { return hash_of(state->direct); }};
 }
 
 Work sort_work(Device& device, std::size_t count) {

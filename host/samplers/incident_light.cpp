@@ -80,7 +80,7 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                receivers,
                                packet_count,
                                {.light_samples = quality.direct_samples,
-                                .path_count = quality.paths,
+                                .rays = quality.paths,
                                 .max_edges = sources.bounce_count + 1,
                                 .clamp_radius = sources.clamp_radius,
                                 .seed = seed}},

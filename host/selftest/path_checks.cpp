@@ -188,12 +188,11 @@ void check_receiver_paths(Device& device, CheckResult& result) {
                 clamp_radius < kInfinity ? std::pow(double{clamp_radius} / kRadius, 2) / 8 : 1.0;
             Buffer<IrradiancePacket> direct(device, 1);
             Buffer<IrradiancePacket> indirect(device, 1);
-            stage.run(
-                {on_device,
-                 receivers,
-                 1,
-                 {.path_count = kSamples, .max_edges = bounces + 1, .clamp_radius = clamp_radius, .seed = 4}},
-                direct, indirect);
+            stage.run({on_device,
+                       receivers,
+                       1,
+                       {.rays = kSamples, .max_edges = bounces + 1, .clamp_radius = clamp_radius, .seed = 4}},
+                      direct, indirect);
             // Single receivers are compared only where no path ends by chance, which adds noise: up to two
             // bounces, if rays bring all light.
             double mean = 0;

@@ -167,7 +167,7 @@ void check_shared_lights(Device& device, CheckResult& result) {
     const SharedLightCase data = make_shared_lights(make_camera_receivers(room.scene, room.bvh, 48, 48),
                                                     0.3f * room.extent, room.is_clear());
     const std::vector<Vec3> wanted = shared_irradiance(data, room.is_visible(), transmission);
-    const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+    const ReceiverPathSettings settings{.rays = data.rays_per_receiver,
                                         .max_edges = data.max_edges,
                                         .clamp_radius = data.clamp_radius,
                                         .seed = 1};
@@ -185,7 +185,7 @@ void check_shared_sky(Device& device, CheckResult& result) {
                                                  (bounds(room.scene).min + bounds(room.scene).max) * 0.5f,
                                                  2 * room.extent, room.is_clear());
     const ReceiverPathSettings settings{.light_samples = 5,
-                                        .path_count = data.rays_per_receiver,
+                                        .rays = data.rays_per_receiver,
                                         .max_edges = data.max_edges,
                                         .clamp_radius = 1.0f,
                                         .seed = 1};
@@ -212,7 +212,7 @@ void check_shared_veiled(Device& device, CheckResult& result) {
                                return storeys.is_sure(from) && storeys.is_sure(to) && is_clear(from, to);
                            });
     const std::vector<Vec3> wanted = veiled_irradiance(data, solids.is_visible(), veils, transmission);
-    const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+    const ReceiverPathSettings settings{.rays = data.rays_per_receiver,
                                         .max_edges = data.max_edges,
                                         .clamp_radius = 1.0f,
                                         .seed = 1,
@@ -229,7 +229,7 @@ void check_shared_reflections(Device& device, CheckResult& result) {
     const SharedReflectionCase data = make_shared_reflections(
         make_camera_receivers(room.scene, room.bvh, 48, 48), room.scene, room.is_clear());
     const std::vector<Vec3> wanted = reflected_irradiance(data, room.scene, room.is_visible(), transmission);
-    const ReceiverPathSettings settings{.path_count = data.lights.rays_per_receiver,
+    const ReceiverPathSettings settings{.rays = data.lights.rays_per_receiver,
                                         .max_edges = data.lights.max_edges,
                                         .clamp_radius = 1.0f,
                                         .seed = 1,

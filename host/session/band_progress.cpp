@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/base/receivers.h"
-#include "host/scene/camera.h"
+#include "host/stages/small_view.h"
 
 namespace nearlight::core {
 namespace {
@@ -46,22 +46,13 @@ std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, cons
     const int width =
         std::clamp(static_cast<int>(std::int64_t{kHeight} * camera.width / std::max(camera.height, 1)), 8,
                    kMaxSmallWidth);
-    SceneCamera unfiltered = camera;
-    unfiltered.filter = {};
-    const Camera small = make_camera(unfiltered, width, kHeight);
-    const CameraBatch batch{
-        .tile_row_count = kStripCount, .branch_count = like.branch_count, .min_weight = like.min_weight};
-    const std::size_t packets = packet_count(batch, small.width);
-    Buffer<ReceiverPacket> receivers(device, packets);
-    Buffer<CameraVertex> vertices(device, packets * NEARLIGHT_PACKET_SIZE);
-    const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
-    const CloseRange nothing{};
-    const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run({scene, camera_buffer, small.width, close_range, batch, seed}, {receivers, vertices});
-    const std::vector<ReceiverPacket> found = receivers.download();
+    const SmallView small =
+        look_at_few_pixels(device, camera_pass, scene, camera, width, kHeight,
+                           {.branch_count = like.branch_count, .min_weight = like.min_weight}, seed);
+    const std::vector<ReceiverPacket> found = small.receivers.download();
     std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
-    for (std::size_t i = 0; i < packets; ++i) {
-        work[i * kStripCount / packets] += static_cast<double>(present_count(found[i]));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        work[i * kStripCount / found.size()] += static_cast<double>(present_count(found[i]));
     }
     return work;
 }

@@ -24,14 +24,14 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const PictureTask& 
     const GatherSettings& settings = picture.settings;
     const uint rays = per_sample(settings.rays_per_pixel, settings);
     return {.light_samples = per_sample(picture.budget.direct_samples_per_pixel, settings),
-            .path_count = settings.compensate ? rays : 0,
-            .aimed_count = picture.budget.aims_at_caustics ? 1u : 0u,
+            .rays = settings.compensate ? rays : 0,
+            .aimed_rays = picture.budget.aims_at_caustics ? 1u : 0u,
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed,
             .shared_limit = picture.budget.shared_limit,
-            .shares_sky = shares_lights(picture) && picture.shares_sky && scene.host_info.has_sky != 0,
-            .shares_veiled = shares_lights(picture) && scene.host_info.veils != NEARLIGHT_VEILS_NONE,
+            .shares_sky = shares_lights(picture) && picture.shares_sky && scene.has_sky(),
+            .shares_veiled = shares_lights(picture) && scene.has_veils(),
             .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};
 }
 
@@ -41,7 +41,7 @@ CameraBatch with_light(CameraBatch batch, const PictureTask& picture, const Rece
     batch.min_weight = min_receiver_weight(picture.settings);
     batch.light_samples = per_sample(picture.budget.direct_samples_per_pixel, picture.settings);
     batch.light_rays = per_sample(picture.settings.rays_per_pixel, picture.settings);
-    batch.sky_rays = paths.shares_sky ? paths.path_count : 0;
+    batch.sky_rays = paths.shares_sky ? paths.rays : 0;
     return batch;
 }
 
@@ -70,10 +70,10 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
 
 void BandStages::expect(const DeviceScene& scene) {
-    if (scene.host_info.has_sky != 0) {
+    if (scene.has_sky()) {
         shared_sky.emplace(device);
     }
-    if (scene.host_info.veils != NEARLIGHT_VEILS_NONE) {
+    if (scene.has_veils()) {
         shared_veiled.emplace(device);
     }
     if (scene.has_rough_gloss) {

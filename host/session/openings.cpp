@@ -30,8 +30,7 @@ constexpr float kMaxRadius = 0.5f;
 constexpr float kMinRadius = 1e-3f;  ///< the smallest, in the same measure
 
 bool has_light_from_afar(const DeviceScene& on_device, const Scene& scene) {
-    return on_device.host_info.has_sky != 0 ||
-           std::ranges::any_of(scene.delta_emitters, [](const Emitter& emitter) {
+    return on_device.has_sky() || std::ranges::any_of(scene.delta_emitters, [](const Emitter& emitter) {
                return emitter.type == NEARLIGHT_EMITTER_DIRECTIONAL;
            });
 }

@@ -19,7 +19,7 @@ void NextPicture::prepare_by(BandWorker& worker, std::function<std::shared_ptr<P
 
 void NextPicture::begin_band(const RemoteDevices& remote, std::size_t device) {
     const std::lock_guard lock(mutex_);
-    if (picture_ && picture_->begun.size() < picture_->picture.plan.band_count()) {
+    if (picture_ && picture_->begun.size() < picture_->task.plan.band_count()) {
         remote.order(*picture_->shown, device, static_cast<uint>(picture_->begun.size()));
         picture_->begun.push_back(device);
     }

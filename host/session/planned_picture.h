@@ -15,7 +15,7 @@ namespace nearlight::core {
 
 /// A picture with its plan. If there are remote devices, they know it.
 struct PlannedPicture {
-    PictureTask picture;
+    PictureTask task;
     PixelWindow window{};                  ///< the part that is wanted
     std::optional<PictureNumber> shown{};  ///< to remote devices
     /// The bands, from the first one on, that remote devices were told to make before the picture's turn: the

@@ -70,7 +70,7 @@ PilotLight light_of(const BudgetPilot& pilot, float radius) {
                                          pilot.view.receivers,
                                          packets,
                                          {.light_samples = 1,
-                                          .path_count = 1,
+                                          .rays = 1,
                                           .max_edges = pilot.max_edges,
                                           .clamp_radius = radius,
                                           .seed = pilot.seed ^ kRaySeeds[i]}},
@@ -197,7 +197,7 @@ MeanCausticErrors caustic_errors(const BudgetPilot& pilot, std::span<const doubl
         {pilot.scene,
          pilot.view.receivers,
          pilot.view.packet_count,
-         {.path_count = kRaysOfAim, .aimed_count = 1, .max_edges = pilot.max_edges, .seed = pilot.seed}});
+         {.rays = kRaysOfAim, .aimed_rays = 1, .max_edges = pilot.max_edges, .seed = pilot.seed}});
     const double share =
         static_cast<double>(kRaysOfAim) / pilot.rays_per_pixel / static_cast<double>(squares.size());
     MeanCausticErrors mean;

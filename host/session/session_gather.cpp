@@ -95,10 +95,10 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                               .local = vpls.local,
                               .shares_sky = view.sky_part > 0 && view.sky_part <= kMaxSharedSkyPart};
     if (remote_.devices.empty()) {
-        return std::make_shared<PlannedPicture>(PlannedPicture{.picture = picture, .window = window});
+        return std::make_shared<PlannedPicture>(PlannedPicture{.task = picture, .window = window});
     }
     const PictureNumber number = remote_.show(picture, vpls.vpls.on_host());
-    return {new PlannedPicture{.picture = picture, .window = window, .shown = number},
+    return {new PlannedPicture{.task = picture, .window = window, .shown = number},
             [number, end = remote_.end](PlannedPicture* planned) {
                 end(number);
                 delete planned;
@@ -110,7 +110,7 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
                               const PictureSequence& order) {
     const std::shared_ptr<PlannedPicture> planned =
         order.present ? order.present : plan(view, vpls, settings, seed);
-    const RenderPlan& plan = planned->picture.plan;
+    const RenderPlan& plan = planned->task.plan;
     WindowCut window_cut(plan.cover, planned->window);
     GatherOutcome outcome;
     const auto take_band = [&](FinishedBand& band) {
@@ -122,8 +122,8 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
             sink(rows);
         }
     };
-    const std::vector<double> strips = work_of(pool_, planned->picture, view);
-    std::vector<BandWorker> workers = band_workers(pool_, planned->picture, vpls.vpls);
+    const std::vector<double> strips = work_of(pool_, planned->task, view);
+    std::vector<BandWorker> workers = band_workers(pool_, planned->task, vpls.vpls);
     NextPicture next;
     if (order.next) {
         next.prepare_by(workers.front(), order.next);

@@ -9,14 +9,14 @@ namespace nearlight::core {
 
 float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, const PilotView& view,
                uint seed) {
-    if (scene.host_info.has_sky == 0 || view.packet_count == 0) {
+    if (!scene.has_sky() || view.packet_count == 0) {
         return 0.0f;
     }
     Buffer<IrradiancePacket> direct(device, view.packet_count);
     Buffer<IrradiancePacket> indirect(device, view.packet_count);
     // So many edges that receivers behind glass take part, and a radius so small that no near light does.
     const ReceiverPathSettings settings{
-        .path_count = 1, .max_edges = 64, .clamp_radius = 1e-6f, .seed = seed, .shares_sky = true};
+        .rays = 1, .max_edges = 64, .clamp_radius = 1e-6f, .seed = seed, .shares_sky = true};
     FoundLights found(device, view.packet_count, settings);
     paths.run_sharing({scene, view.receivers, view.packet_count, settings}, direct, indirect, found);
     const std::vector<SharedLight> lights = found.sky.download();

@@ -174,7 +174,7 @@ DeviceScene upload_scene(Device& device, const Scene& scene, const ShapedBvh& tr
     const TreeShapes shapes = tree_shapes(device, kernel);
     DeviceScene on_device = upload_surfaces_and_lights(device, scene);
     on_device.tree = upload(device, tree, shapes);
-    if (on_device.host_info.veils != NEARLIGHT_VEILS_NONE) {
+    if (on_device.has_veils()) {
         on_device.veil_trees = make_veil_trees(device, scene, tree, shapes);
     }
     return on_device;

@@ -60,6 +60,9 @@ struct DeviceScene {
     float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
     double total_area = 0.0;     ///< area of all triangles, m²
 
+    [[nodiscard]] bool has_sky() const { return host_info.has_sky != 0; }
+    [[nodiscard]] bool has_veils() const { return host_info.veils != NEARLIGHT_VEILS_NONE; }
+
     /// The transmission curves for a gather; null where all of them are 1.
     [[nodiscard]] const Buffer<float>* curves_in_use() const {
         return host_info.has_curves != 0 ? &curves : nullptr;

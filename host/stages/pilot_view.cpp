@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "host/base/receivers.h"
-#include "host/scene/camera.h"
 #include "host/stages/importon_groups.h"
+#include "host/stages/small_view.h"
 
 namespace nearlight::core {
 namespace {
@@ -113,25 +113,15 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const double aspect = static_cast<double>(camera.width) / camera.height;
     const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
     const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
-    // A filter only decides how pixels share light, which does not matter to the receivers.
-    SceneCamera unfiltered = camera;
-    unfiltered.filter = {};
-    const Camera small = make_camera(unfiltered, width, height);
-    const CameraBatch batch{.tile_row_count = tiles_across(small.height), .samples_per_pixel = 2};
-
+    SmallView small =
+        look_at_few_pixels(device, camera_pass, scene, camera, width, height, {.samples_per_pixel = 2}, seed);
     PilotView view;
     view.device = &device;
-    view.packet_count = static_cast<uint>(packet_count(batch, small.width));
-    view.receivers = Buffer<ReceiverPacket>(device, view.packet_count);
-    Buffer<CameraVertex> vertices(device, std::size_t{view.packet_count} * NEARLIGHT_PACKET_SIZE);
-    const Buffer<Camera> camera_buffer(device, std::span(&small, 1));
-    const CloseRange nothing{};
-    const Buffer<CloseRange> close_range(device, std::span(&nothing, 1));
-    camera_pass.run({scene, camera_buffer, small.width, close_range, batch, seed},
-                    {view.receivers, vertices});
+    view.packet_count = static_cast<uint>(small.packet_count);
+    view.receivers = std::move(small.receivers);
     const std::vector<ReceiverPacket> packets = view.receivers.download();
     view.distances = receiver_distances(packets, small.origin);
-    set_importons(device, view, make_importons(packets, vertices.download()));
+    set_importons(device, view, make_importons(packets, small.vertices.download()));
     return view;
 }
 

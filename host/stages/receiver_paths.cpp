@@ -24,12 +24,12 @@ ReceiverPathParams params_of(const ReceiverBatch& batch, uint shared_kinds) {
     const ReceiverPathSettings& settings = batch.settings;
     return {.packet_count = static_cast<uint>(batch.packet_count),
             .light_samples = settings.light_samples,
-            .path_count = settings.path_count,
+            .rays = settings.rays,
             .max_edges = settings.max_edges,
             .clamp_radius = settings.clamp_radius,
             .seed = settings.seed,
             .shares = shared_kinds,
-            .aimed_count = settings.path_count > 0 ? settings.aimed_count : 0,
+            .aimed_rays = settings.rays > 0 ? settings.aimed_rays : 0,
             .shared_limit = settings.shared_limit};
 }
 

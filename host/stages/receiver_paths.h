@@ -18,10 +18,10 @@ struct ReceiverPathSettings {
     /// NEARLIGHT_MAX_EXACT_LIGHTS of them: then they are sampled too.
     uint light_samples = 1;
     /// Rays of each receiver. With 0, only direct light is found.
-    uint path_count = 0;
+    uint rays = 0;
     /// Rays of each receiver besides these that aim at mirrors and glass, where DeviceScene::caustic_aims has
     /// targets for it. They bring light of lamps over mirrors and glass alone.
-    uint aimed_count = 0;
+    uint aimed_rays = 0;
     /// The maximum number of edges of a path from a light to a receiver that the camera sees without anything
     /// between: 1 is direct light. A receiver behind n mirrors or panes gets n edges less.
     uint max_edges = 1;

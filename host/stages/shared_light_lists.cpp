@@ -47,8 +47,8 @@ void SharedLightLists::make(const ReceiverBatch& batch, float max_distance, cons
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
         visibility_.launch(items, local_size, nodes, triangles, batch.receivers, packets, found,
-                           max_distance * max_distance, settings.max_edges, settings.path_count, listed_,
-                           lengths_, factors_, seen_by_, rest...);
+                           max_distance * max_distance, settings.max_edges, settings.rays, listed_, lengths_,
+                           factors_, seen_by_, rest...);
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,

@@ -13,7 +13,7 @@ void SharedSky::add(const ReceiverBatch& batch, SharedLightLists& lists, const B
     lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_SKY_LIGHTS,
                Hiding::solids);
     const SharedSkyParams params{.packet_count = static_cast<uint>(batch.packet_count),
-                                 .rays = batch.settings.path_count,
+                                 .rays = batch.settings.rays,
                                  .light_samples = batch.settings.light_samples,
                                  .max_edges = batch.settings.max_edges,
                                  .has_seen = seen.surfaces.count() > 0 ? 1u : 0u,

@@ -25,11 +25,11 @@ static inline LightReceiver light_receiver(float3 x, const SurfaceBsdf* surface,
 }
 
 /// What one light sample sends towards the viewer of a surface through at most `max_veils` veils, if each
-/// surface also sends `path_ratio` rays for each light sample, and `bundle_ratio` of its bundle look for the
+/// surface also sends `ray_ratio` rays for each light sample, and `bundle_ratio` of its bundle look for the
 /// sky.
 static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* hit,
                                       const SurfaceBsdf* surface, const LightSample* light, uint parts,
-                                      float path_ratio, float bundle_ratio, uint max_veils) {
+                                      float ray_ratio, float bundle_ratio, uint max_veils) {
     if (!may_shine(light)) {
         return (float3)(0.0f);
     }
@@ -45,7 +45,7 @@ static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* 
     }
     float density = light->pdf;
     if (!light->is_delta) {
-        density += path_ratio * pdf;
+        density += ray_ratio * pdf;
         if (light->infinite && bundle_ratio > 0.0f && bundle_finds_sky(scene, origin, light->direction)) {
             density += bundle_density(surface->frame.n, light->direction, bundle_ratio);
         }
@@ -76,7 +76,7 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
     if (!has_sampled_lights(scene)) {
         return exact;
     }
-    const float path_ratio = (float)quota->rays / (float)quota->samples;
+    const float ray_ratio = (float)quota->rays / (float)quota->samples;
     const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     const LightReceiver at = light_receiver(hit->position, surface, parts);
     float3 sum = (float3)(0.0f);
@@ -85,7 +85,7 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
         const LightSample light =
             sample_light(scene, &at, sample_2d(number, 0, key), sample_2d(number, 1, key));
         sum +=
-            reflected_sample(scene, hit, surface, &light, parts, path_ratio, bundle_ratio, quota->max_veils);
+            reflected_sample(scene, hit, surface, &light, parts, ray_ratio, bundle_ratio, quota->max_veils);
     }
     return exact + sum / (float)quota->samples;
 }

@@ -36,7 +36,7 @@ typedef struct PathLimits {
     uint vpl_edges;      // of a path by which VPLs bring light to the receiver
     float clamp_radius;  // R, m
     uint light_samples;  // that each receiver takes of lights
-    uint path_count;     // rays that each receiver sends
+    uint rays;           // rays that each receiver sends
     uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
     float shared_limit;  // RayShare.shared_limit
@@ -181,7 +181,7 @@ OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, con
 static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoint* at,
                                       const PathLimits* limits, float2 u, uint4 keys, Finds* finds) {
     ReceivedLight light = nothing_received();
-    PathRay ray = receiver_ray(scene, at, (float)limits->path_count / (float)limits->light_samples, u);
+    PathRay ray = receiver_ray(scene, at, (float)limits->rays / (float)limits->light_samples, u);
     ray.bundle_ratio = (float)limits->bundle_rays / (float)limits->light_samples;
     if (is_black(ray.throughput)) {
         return light;
@@ -237,25 +237,25 @@ OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const Recei
     if (limits->vpl_edges == 0 || scene->info->emitter_count == 0) {
         return light;
     }
-    const uint first_path = limits->sample * limits->path_count;
-    for (uint path = first_path; path < first_path + limits->path_count; ++path) {
-        const ReceivedLight brought = ray_light(scene, at, limits, sample_2d(path, 2, keys.x),
-                                                random_uint4((uint4)(keys.y, keys.z, keys.w, path)), finds);
+    const uint first_ray = limits->sample * limits->rays;
+    for (uint ray = first_ray; ray < first_ray + limits->rays; ++ray) {
+        const ReceivedLight brought = ray_light(scene, at, limits, sample_2d(ray, 2, keys.x),
+                                                random_uint4((uint4)(keys.y, keys.z, keys.w, ray)), finds);
         light.direct += brought.direct;
         light.indirect += brought.indirect;
     }
     const CausticAim* aim = &limits->aim;
     const uint first_aimed = limits->sample * aim->aimed_rays;
-    for (uint path = first_aimed; aim->count > 0 && path < first_aimed + aim->aimed_rays; ++path) {
-        light.indirect += aimed_light(scene, at, limits, sample_2d(path, 3, keys.x),
-                                      random_uint4((uint4)(keys.y, keys.z, ~keys.w, path)));
+    for (uint ray = first_aimed; aim->count > 0 && ray < first_aimed + aim->aimed_rays; ++ray) {
+        light.indirect += aimed_light(scene, at, limits, sample_2d(ray, 3, keys.x),
+                                      random_uint4((uint4)(keys.y, keys.z, ~keys.w, ray)));
     }
-    const float scale = 1.0f / (float)max(limits->path_count, 1u);
+    const float scale = 1.0f / (float)max(limits->rays, 1u);
     light.direct *= scale;
     light.indirect *= scale;
     if (limits->max_edges > 0) {
         light.direct +=
-            sampled_direct_light(scene, at, limits->light_samples, limits->path_count, limits->bundle_rays,
+            sampled_direct_light(scene, at, limits->light_samples, limits->rays, limits->bundle_rays,
                                  limits->max_edges - 1, limits->sample * limits->light_samples, keys.x);
     }
     return light;

@@ -50,10 +50,10 @@ static inline ReceivedLight nothing_received(void) {
 }
 
 /// What a light sample brings to the irradiance of a receiver through at most `max_veils` veils, weighted for
-/// `path_ratio` cosine-distributed rays for each light sample, and for `bundle_ratio` more of its bundle that
+/// `ray_ratio` cosine-distributed rays for each light sample, and for `bundle_ratio` more of its bundle that
 /// look for the sky.
 static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPoint* at,
-                                        const LightSample* light, float path_ratio, float bundle_ratio,
+                                        const LightSample* light, float ray_ratio, float bundle_ratio,
                                         uint max_veils) {
     const float cosine = dot(at->n, light->direction);
     if (!(cosine > 0.0f) || !may_shine(light)) {
@@ -72,18 +72,18 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
     if (!light->is_delta) {
         const bool of_bundle =
             light->infinite && bundle_ratio > 0.0f && bundle_finds_sky(scene, at->x, light->direction);
-        const float rays = path_ratio + (of_bundle ? bundle_ratio : 0.0f);
+        const float rays = ray_ratio + (of_bundle ? bundle_ratio : 0.0f);
         density += rays * cosine * M_1_PI_F;
     }
     return density > 0.0f ? response / density * part * light_radiance(scene, light) : (float3)(0.0f);
 }
 
 /// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
-/// sends `path_count` rays too. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. Without rays, light
+/// sends `rays` rays too. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. Without rays, light
 /// samples bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays
 /// of the bundle as `bundle_rays` look for the sky too.
 static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                          uint path_count, uint bundle_rays, uint max_veils, uint first,
+                                          uint rays, uint bundle_rays, uint max_veils, uint first,
                                           uint seed) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
@@ -93,16 +93,16 @@ static inline float3 sampled_direct_light(const SceneView* scene, const Receiver
     if (!has_sampled_lights(scene)) {
         return exact;
     }
-    const float path_ratio = (float)path_count / (float)sample_count;
+    const float ray_ratio = (float)rays / (float)sample_count;
     const float bundle_ratio = (float)bundle_rays / (float)sample_count;
     const LightReceiver receiver = even_receiver(at->x, at->n);
     float3 sum = (float3)(0.0f);
     for (uint s = 0; s < sample_count; ++s) {
         const float2 choice = sample_2d(first + s, 0, seed);
         const float2 u = sample_2d(first + s, 1, seed);
-        const LightSample light = path_count > 0 ? sample_light(scene, &receiver, choice, u)
-                                                 : sample_light_or_cosine(scene, &receiver, choice, u);
-        sum += sampled_irradiance(scene, at, &light, path_ratio, bundle_ratio, max_veils);
+        const LightSample light = rays > 0 ? sample_light(scene, &receiver, choice, u)
+                                           : sample_light_or_cosine(scene, &receiver, choice, u);
+        sum += sampled_irradiance(scene, at, &light, ray_ratio, bundle_ratio, max_veils);
     }
     return exact + sum / (float)sample_count;
 }

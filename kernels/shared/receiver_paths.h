@@ -13,12 +13,12 @@ namespace nearlight::core {
 typedef struct ReceiverPathParams {
     uint packet_count;   // packets of receivers
     uint light_samples;  // that each receiver takes of lights
-    uint path_count;     // rays that each receiver sends
+    uint rays;           // rays that each receiver sends
     uint max_edges;      // of a path from a light to a receiver with no surfaces before it
     float clamp_radius;  // m
     uint seed;
     uint shares;         // what goes to bundles: NEARLIGHT_SHARES_… of shared/shared_light.h
-    uint aimed_count;    // rays that each receiver sends besides to mirrors and glass (lib/caustic_aim.cl)
+    uint aimed_rays;     // rays that each receiver sends besides to mirrors and glass (lib/caustic_aim.cl)
     float shared_limit;  // radiance of places, W/m²/sr, above which light met by chance stays with receivers
 } ReceiverPathParams;
 

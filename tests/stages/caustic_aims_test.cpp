@@ -150,7 +150,7 @@ struct Received {
     double variance = 0;  // of all receivers together
 };
 
-Received received(Device& device, const Scene& scene, uint aimed_count, uint rays, uint seeds) {
+Received received(Device& device, const Scene& scene, uint aimed_rays, uint rays, uint seeds) {
     DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     on_device.caustic_aims = find_caustic_aims(device, on_device, 3);
     EXPECT_GT(on_device.caustic_aims.table.size, 0u);
@@ -162,11 +162,8 @@ Received received(Device& device, const Scene& scene, uint aimed_count, uint ray
     Received result{std::vector<double>(NEARLIGHT_PACKET_SIZE)};
     std::vector<double> squares(NEARLIGHT_PACKET_SIZE);
     for (uint seed = 0; seed < seeds; ++seed) {
-        const ReceiverPathSettings settings{.path_count = rays,
-                                            .aimed_count = aimed_count,
-                                            .max_edges = 6,
-                                            .clamp_radius = 1e-6f,
-                                            .seed = seed};
+        const ReceiverPathSettings settings{
+            .rays = rays, .aimed_rays = aimed_rays, .max_edges = 6, .clamp_radius = 1e-6f, .seed = seed};
         paths.run({on_device, receivers, packets.size(), settings}, direct, indirect);
         const std::vector<IrradiancePacket> light = indirect.download();
         for (std::size_t i = 0; i < result.mean.size(); ++i) {
@@ -234,7 +231,7 @@ TEST_F(CausticAimsTest, AimedRaysTellWhatAimingGains) {
                 paths.caustic_errors({on_device,
                                       receivers,
                                       packets.size(),
-                                      {.path_count = kRays, .aimed_count = 1, .max_edges = 6, .seed = seed}});
+                                      {.rays = kRays, .aimed_rays = 1, .max_edges = 6, .seed = seed}});
             sums.unaimed[0] += std::reduce(errors.unaimed.begin(), errors.unaimed.end()) / kSeeds;
             sums.aimed[0] += std::reduce(errors.aimed.begin(), errors.aimed.end()) / kSeeds;
         }
@@ -251,9 +248,9 @@ TEST_F(CausticAimsTest, AimedRaysTellWhatAimingGains) {
 TEST_F(CausticAimsTest, AnyNumberOfRaysBringsTheSame) {
     on_each_device([](Device& device) {
         const Scene scene = make_mirror_corner().scene;
-        const auto sum_of = [&](uint aimed_count, uint rays) {
+        const auto sum_of = [&](uint aimed_rays, uint rays) {
             double sum = 0;
-            for (const double mean : received(device, scene, aimed_count, rays, 128).mean) {
+            for (const double mean : received(device, scene, aimed_rays, rays, 128).mean) {
                 sum += mean;
             }
             return sum;

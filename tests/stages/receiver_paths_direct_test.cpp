@@ -51,7 +51,7 @@ std::vector<IrradiancePacket> illuminate(Device& device, const Scene& scene,
     ReceiverPaths(device).run({on_device.buffers,
                                input,
                                receivers.size(),
-                               {.light_samples = samples.light, .path_count = samples.rays, .seed = seed}},
+                               {.light_samples = samples.light, .rays = samples.rays, .seed = seed}},
                               direct, indirect);
     for (const IrradiancePacket& packet : indirect.download()) {
         for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {

@@ -99,7 +99,7 @@ struct CornerLight {
             {on_gpu.buffers,
              receivers,
              1,
-             {.path_count = samples, .max_edges = bounces + 1, .clamp_radius = radius, .seed = 4}},
+             {.rays = samples, .max_edges = bounces + 1, .clamp_radius = radius, .seed = 4}},
             direct, indirect);
         return mean_green(indirect);
     }
@@ -259,15 +259,12 @@ class MirroredLamp {
         const Buffer<ReceiverPacket> receivers(*device_, std::span(&packet_, 1));
         Buffer<IrradiancePacket> direct(*device_, 1);
         Buffer<IrradiancePacket> indirect(*device_, 1);
-        ReceiverPaths(*device_).run({on_gpu_.buffers,
-                                     receivers,
-                                     1,
-                                     {.light_samples = 1024,
-                                      .path_count = 4096,
-                                      .max_edges = max_edges,
-                                      .clamp_radius = 0.0f,
-                                      .seed = 6}},
-                                    direct, indirect);
+        ReceiverPaths(*device_).run(
+            {on_gpu_.buffers,
+             receivers,
+             1,
+             {.light_samples = 1024, .rays = 4096, .max_edges = max_edges, .clamp_radius = 0.0f, .seed = 6}},
+            direct, indirect);
         return {mean_green(direct), mean_green(indirect)};
     }
 

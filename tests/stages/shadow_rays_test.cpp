@@ -170,11 +170,8 @@ TEST_F(ShadowRaysTest, RaysShareTheLightWithLightSamples) {
             }
             const double open = arrived(device, scene, {.light_samples = 4096, .seed = 5}).direct.y;
             veil.add(scene);
-            const ReceiverPathSettings both{.light_samples = 256,
-                                            .path_count = 256,
-                                            .max_edges = veil.veils + 1,
-                                            .clamp_radius = 0,
-                                            .seed = 3};
+            const ReceiverPathSettings both{
+                .light_samples = 256, .rays = 256, .max_edges = veil.veils + 1, .clamp_radius = 0, .seed = 3};
             expect_share(arrived(device, scene, both), open, veil.share, 0.015);
         }
     });
@@ -188,8 +185,8 @@ TEST_F(ShadowRaysTest, LightBehindAPaneHasLittleNoise) {
             SCOPED_TRACE(veil.name);
             Scene scene = lit_by(Source::lamp);
             veil.add(scene);
-            const Arrived found = arrived(
-                device, scene, {.light_samples = 16, .path_count = 16, .max_edges = 6, .clamp_radius = 0});
+            const Arrived found =
+                arrived(device, scene, {.light_samples = 16, .rays = 16, .max_edges = 6, .clamp_radius = 0});
             expect_share(found, kOpen, veil.share, 0.01);
             EXPECT_LT(found.deviation, 0.05);
         }
@@ -210,7 +207,7 @@ TEST_F(ShadowRaysTest, VeilsUnderMapsAreLeftToRays) {
         add_sheet(scene, add_material(scene, normal_map_material(flat, mask)));
         expect_share(arrived(device, scene, sampled(4)), open, {0, 0, 0});
         const ReceiverPathSettings rays{
-            .light_samples = 16, .path_count = 4096, .max_edges = 2, .clamp_radius = 0, .seed = 3};
+            .light_samples = 16, .rays = 4096, .max_edges = 2, .clamp_radius = 0, .seed = 3};
         Arrived found = arrived(device, scene, rays);
         expect_share(found, open, {0, 0, 0});
         found.direct = found.indirect;  // what a map lets pass counts as scattered

@@ -54,8 +54,8 @@ std::vector<ReceiverPacket> receivers_near_the_wall(std::size_t count = kReceive
     return test::pack_receivers(points);
 }
 
-constexpr ReceiverPathSettings kTwoRays{.path_count = 2, .max_edges = 4, .clamp_radius = kRadius};
-constexpr ReceiverPathSettings kManyRays{.path_count = 512, .max_edges = 4, .clamp_radius = kRadius};
+constexpr ReceiverPathSettings kTwoRays{.rays = 2, .max_edges = 4, .clamp_radius = kRadius};
+constexpr ReceiverPathSettings kManyRays{.rays = 512, .max_edges = 4, .clamp_radius = kRadius};
 
 void expect_the_light_of_own_rays(Device& device, const Scene& scene,
                                   const std::vector<ReceiverPacket>& packets, GatherKernel kernel,
@@ -172,7 +172,7 @@ TEST_F(SharedLightsTest, AgreeWithEmbree) {
             });
         const std::vector<Vec3> wanted = shared_irradiance(
             data, [&](Vec3 from, Vec3 to) { return !embree.blocked(from, to); }, [](double) { return 0.5; });
-        const ReceiverPathSettings settings{.path_count = data.rays_per_receiver,
+        const ReceiverPathSettings settings{.rays = data.rays_per_receiver,
                                             .max_edges = data.max_edges,
                                             .clamp_radius = data.clamp_radius,
                                             .seed = 1};

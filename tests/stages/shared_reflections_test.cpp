@@ -55,8 +55,8 @@ std::vector<ReceiverPacket> receivers_on_the_ceiling() {
 }
 
 constexpr ReceiverPathSettings kTwoGlossyRays{
-    .path_count = 2, .max_edges = 4, .clamp_radius = 0.5f, .shares_reflections = true};
-constexpr ReceiverPathSettings kManyGlossyRays{.path_count = 512, .max_edges = 4, .clamp_radius = 0.5f};
+    .rays = 2, .max_edges = 4, .clamp_radius = 0.5f, .shares_reflections = true};
+constexpr ReceiverPathSettings kManyGlossyRays{.rays = 512, .max_edges = 4, .clamp_radius = 0.5f};
 
 void expect_what_own_rays_bring(Device& device, const Scene& scene,
                                 GatherKernel kernel = GatherKernel::automatic,

@@ -101,7 +101,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
     Light light{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
                 std::vector<double>(count)};
     for (int seed = 0; seed < search.seeds; ++seed) {
-        const ReceiverPathSettings settings{.path_count = search.rays,
+        const ReceiverPathSettings settings{.rays = search.rays,
                                             .max_edges = 3,
                                             .clamp_radius = 0.1f,
                                             .seed = 50u + static_cast<uint>(seed),

@@ -50,10 +50,10 @@ std::vector<ReceiverPacket> receivers_above() {
 }
 
 constexpr ReceiverPathSettings kTwoVeiledRays{
-    .path_count = 2, .max_edges = 4, .clamp_radius = 0.5f, .shares_veiled = true};
+    .rays = 2, .max_edges = 4, .clamp_radius = 0.5f, .shares_veiled = true};
 
 ReceiverPathSettings with_veiled_rays(ReceiverPathSettings settings, uint rays) {
-    settings.path_count = rays;
+    settings.rays = rays;
     return settings;
 }
 

@@ -59,7 +59,7 @@ TEST_F(SmallLaunchesTest, CameraPassAndFilm) {
             {scene.buffers,
              receivers,
              packets,
-             {.light_samples = 1, .path_count = 1, .max_edges = 3, .clamp_radius = 0.3f, .seed = 2}},
+             {.light_samples = 1, .rays = 1, .max_edges = 3, .clamp_radius = 0.3f, .seed = 2}},
             direct, indirect);
         const std::size_t pixels = std::size_t{camera.width} * camera.height;
         Buffer<float> sums(device, pixels * NEARLIGHT_FILM_CHANNELS);

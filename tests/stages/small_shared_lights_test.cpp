@@ -33,7 +33,7 @@ Numbers shared_lights(Device& device, GatherKernel kernel) {
     const std::vector<ReceiverPacket> packets = few_receivers(scene, 8, 8);
     const Buffer<ReceiverPacket> receivers(device, packets);
     const ReceiverPathSettings settings{.light_samples = 1,
-                                        .path_count = 1,
+                                        .rays = 1,
                                         .max_edges = 3,
                                         .clamp_radius = 0.8f,
                                         .seed = 2,
