@@ -94,6 +94,7 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
     Image image{.width = spec.width,
                 .height = spec.height,
                 .channels = spec.channelnames,
+                .values = {},
                 .holds_floats = spec.format.is_floating_point()};
     if (!read_pixels(*input, image.values) || input->has_error()) {
         fail_image("cannot read image", file, input->geterror());

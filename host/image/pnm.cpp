@@ -55,7 +55,7 @@ std::optional<Image> read_pnm(const std::filesystem::path& file) {
     if (!stream) {
         return std::nullopt;
     }
-    Image image{.width = static_cast<int>(header->width), .height = static_cast<int>(header->height)};
+    Image image{static_cast<int>(header->width), static_cast<int>(header->height), {}, {}};
     image.channels =
         header->channel_count == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
     image.values.reserve(bytes.size());
