@@ -2,10 +2,7 @@
 // The materials of OBJ scenes.
 #include <cmath>
 
-#include "host/image/image.h"
-#include "host/image/image_io.h"
 #include "host/scene/obj/obj_text.h"
-#include "host/scene/texture.h"
 #include "tests/scene/obj_text.h"
 
 namespace nearlight::core {
@@ -258,103 +255,6 @@ TEST(Obj, ClosedGlassIsABody) {
     EXPECT_FLOAT_EQ(body.transmission.value.x, 0.5f);
     EXPECT_EQ(glass("7", "").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
     EXPECT_EQ(glass("4", "f 1 4 3\n").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
-}
-
-class ObjTextures : public testing::Test {
-  protected:
-    /// The only material of a triangle with this entry, below any mask and side.
-    Material load(const std::string& entry) {
-        files_.write("m.mtl", "newmtl m\nillum 1\n" + entry);
-        scene_ =
-            load_obj(files_, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
-        return scene_.materials[scene_.triangles.at(0).material];
-    }
-    [[nodiscard]] Texture texture(const Parameter& parameter) const {
-        return scene_.textures.at(static_cast<std::size_t>(parameter.texture)).parameters;
-    }
-    Image write_image(const std::string& name, const std::vector<std::string>& channels,
-                      const std::vector<float>& pixel) {
-        Image image{1, 1, channels, pixel};
-        nearlight::core::write_image(files_.path(name), image);
-        return image;
-    }
-
-    SceneFiles files_;
-    Scene scene_;
-};
-
-TEST_F(ObjTextures, OptionsPlaceThem) {
-    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
-    const Material two_sided = load("map_Kd -s 4 2 1 -o 0.5 0.25 0 -clamp on a.exr\n");
-    const Texture placed = texture(scene_.materials[two_sided.child[0]].reflectance);
-    EXPECT_FLOAT_EQ(placed.u_scale, 4.0f);
-    EXPECT_FLOAT_EQ(placed.v_scale, 2.0f);
-    EXPECT_FLOAT_EQ(placed.u_offset, 0.5f);
-    EXPECT_FLOAT_EQ(placed.v_offset, 0.25f);
-    EXPECT_EQ(placed.wrap_s, static_cast<uint>(NEARLIGHT_WRAP_CLAMP));
-    EXPECT_TRUE(scene_.notes.empty() || !has_note(scene_, "-mm"));
-    load("map_Kd -mm 0.1 2 a.exr\n");
-    EXPECT_TRUE(has_note(scene_, "m.mtl:3: -mm and -t"));
-}
-
-TEST_F(ObjTextures, OptionsMayHaveOneOrTwoNumbers) {
-    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
-    const auto placed = [&](const std::string& options) {
-        const Material two_sided = load("Kd 0.5 0.5 0.5\nmap_Kd " + options + " a.exr\n");
-        return texture(scene_.materials[two_sided.child[0]].reflectance);
-    };
-    EXPECT_FLOAT_EQ(placed("-s 2 3").v_scale, 3.0f);
-    EXPECT_FLOAT_EQ(placed("-s 2").u_scale, 2.0f);
-    EXPECT_FLOAT_EQ(placed("-s 2").v_scale, 1.0f);
-    EXPECT_FLOAT_EQ(placed("-o 0.25 -s 4 2").u_offset, 0.25f);
-    EXPECT_FLOAT_EQ(placed("-o 0.25 -s 4 2").v_offset, 0.0f);
-}
-
-/// What tinyobjloader assumes where Kd is missing depends on the entries before.
-TEST_F(ObjTextures, WithoutKdATextureIsTheColour) {
-    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
-    const Material two_sided = load("map_Kd a.exr\n");
-    expect_near(scene_.materials[two_sided.child[0]].reflectance.value, {1, 1, 1});
-}
-
-TEST_F(ObjTextures, ATransparencyOfOneIsMeantAsAnOpacity) {
-    EXPECT_EQ(load("Kd 1 1 1\nTr 1\n").model, NEARLIGHT_BSDF_TWO_SIDED);
-    EXPECT_TRUE(has_note(scene_, "m.mtl:1: a transparency (Tr) of 1"));
-    EXPECT_EQ(load("Kd 1 1 1\nTr 0.25\n").model, NEARLIGHT_BSDF_MASK);
-    EXPECT_EQ(load("Kd 1 1 1\nd 0\n").model, NEARLIGHT_BSDF_MASK);
-}
-
-TEST_F(ObjTextures, OpacityIsTheAlphaOfImagesThatHaveSome) {
-    write_image("leaf.exr", {"R", "G", "B", "A"}, {0.1f, 0.6f, 0.1f, 0.25f});
-    write_image("grey.exr", {"R", "G", "B", "A"}, {0.75f, 0.75f, 0.75f, 1.0f});
-    const auto opacity = [&](const std::string& entry) {
-        const Material mask = load(entry);
-        EXPECT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
-        return parameter_value(scene_, mask.reflectance, 0, 0).x;
-    };
-    EXPECT_NEAR(opacity("map_d leaf.exr\n"), 0.25f, 1e-3f);
-    EXPECT_NEAR(opacity("map_d grey.exr\n"), 0.75f, 1e-3f);
-    EXPECT_NEAR(opacity("map_d -imfchan g leaf.exr\n"), 0.6f, 1e-3f);
-}
-
-TEST_F(ObjTextures, EmissionHasOne) {
-    write_image("screen.exr", {"R", "G", "B"}, {3, 2, 1});
-    const Material lit = load("Ke 2 2 2\nmap_Ke screen.exr\n");
-    expect_near(parameter_value(scene_, lit.emission, 0, 0), {6, 4, 2}, 1e-2f);
-    expect_near(parameter_value(scene_, load("map_Ke screen.exr\n").emission, 0, 0), {3, 2, 1}, 1e-2f);
-    EXPECT_TRUE(is_zero(load("Kd 1 1 1\n").emission.value));
-}
-
-TEST_F(ObjTextures, MapsOfNormalsCountAndHeightsAreLeftOut) {
-    write_image("normal.exr", {"R", "G", "B"}, {0.5f, 0.5f, 1.0f});
-    write_image("height.exr", {"R", "G", "B"}, {0.5f, 0.5f, 0.5f});
-    EXPECT_EQ(load("norm normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
-    EXPECT_EQ(load("map_Bump -bm 1.0 normal.exr\n").model, NEARLIGHT_BSDF_NORMAL_MAP);
-    write_image("tilted.exr", {"R", "G", "B"}, {0.6f, 0.5f, 0.9f});
-    const Material flatter = load("map_Bump -bm 0.5 tilted.exr\n");
-    EXPECT_NEAR(parameter_value(scene_, flatter.reflectance, 0, 0).x, 0.55f, 1e-3f);
-    EXPECT_EQ(load("bump height.exr\n").model, NEARLIGHT_BSDF_TWO_SIDED);
-    EXPECT_TRUE(has_note(scene_, "bump maps of OBJ materials are left out"));
 }
 
 /// Mitsuba 0.5 and 0.6 give each material of the file the BSDF of its name, or what its library says.
