@@ -217,7 +217,7 @@ TEST_F(CausticAimsTest, AimedRaysBringTheLightOfAMirrorImage) {
 /// Few aimed rays tell the variance that many seeds show.
 TEST_F(CausticAimsTest, AimedRaysTellWhatAimingGains) {
     on_each_device([](Device& device) {
-        constexpr uint kRays = 4;
+        constexpr uint kCosineRays = 4;
         const Scene scene = make_mirror_corner().scene;
         DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
         on_device.caustic_aims = find_caustic_aims(device, on_device, 3);
@@ -225,20 +225,20 @@ TEST_F(CausticAimsTest, AimedRaysTellWhatAimingGains) {
         const Buffer<ReceiverPacket> receivers(device, packets);
         ReceiverPaths paths(device);
         CausticErrors sums{{0}, {0}};  // of all channels
-        constexpr uint kSeeds = 64;
-        for (uint seed = 0; seed < kSeeds; ++seed) {
+        constexpr uint kErrorSeeds = 64;
+        for (uint seed = 0; seed < kErrorSeeds; ++seed) {
             const CausticErrors errors =
                 paths.caustic_errors({on_device,
                                       receivers,
                                       packets.size(),
-                                      {.rays = kRays, .aimed_rays = 1, .max_edges = 6, .seed = seed}});
-            sums.unaimed[0] += std::reduce(errors.unaimed.begin(), errors.unaimed.end()) / kSeeds;
-            sums.aimed[0] += std::reduce(errors.aimed.begin(), errors.aimed.end()) / kSeeds;
+                                      {.rays = kCosineRays, .aimed_rays = 1, .max_edges = 6, .seed = seed}});
+            sums.unaimed[0] += std::reduce(errors.unaimed.begin(), errors.unaimed.end()) / kErrorSeeds;
+            sums.aimed[0] += std::reduce(errors.aimed.begin(), errors.aimed.end()) / kErrorSeeds;
         }
-        const double unaimed = received(device, scene, 0, kRays, 8192).variance;
+        const double unaimed = received(device, scene, 0, kCosineRays, 8192).variance;
         EXPECT_NEAR(sums.unaimed[0], 3 * unaimed, 0.2 * 3 * unaimed);
         // The second moment takes no notice that each kind of rays has a mean of its own.
-        const double aimed = received(device, scene, 1, kRays, 2048).variance;
+        const double aimed = received(device, scene, 1, kCosineRays, 2048).variance;
         EXPECT_GT(sums.aimed[0], 0.8 * 3 * aimed);
         EXPECT_LT(sums.aimed[0], 0.1 * sums.unaimed[0]);
     });
