@@ -55,16 +55,6 @@ static inline ReceiverPoint receiver_point_of(const global ReceiverPacket* recei
     return at;
 }
 
-/// Where a receiver aims beside its other rays.
-static inline CausticAim receiver_aim(const CausticTable* table, const global CausticCell* cells,
-                                      const global Vec3* targets, float3 x, uint aimed_rays,
-                                      uint cosine_rays) {
-    CausticAim aim = caustic_aim_at(table, cells, targets, x);
-    aim.aimed_rays = aimed_rays;
-    aim.cosine_rays = cosine_rays;
-    return aim;
-}
-
 /// The random numbers of a receiver.
 static inline uint4 receiver_keys(const global ReceiverPacket* receiver, uint lane, float3 x, uint seed) {
     const uint sequence = receiver->sequence[lane];
@@ -101,8 +91,8 @@ kernel void receiver_paths(SCENE_PARAMETERS, VEIL_PARAMETERS, const global Recei
     if (dot(at.n, at.n) > 0.0f) {
         PathLimits limits = receiver_limits(&params, receiver, lane, finds.sky.is_wanted);
         if (params.aimed_rays > 0) {
-            limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_rays,
-                                      params.rays);
+            limits.aim = caustic_aim_at(&caustic_table, caustic_cells, caustic_targets, at.x,
+                                        params.aimed_rays, params.rays);
         }
         light =
             received_light(&scene, &at, &limits, receiver_keys(receiver, lane, at.x, params.seed), &finds);
@@ -173,8 +163,8 @@ kernel void caustic_errors(SCENE_PARAMETERS, const global ReceiverPacket* restri
     CausticError sum = {0.0f, 0.0f, 0.0f};
     if (dot(at.n, at.n) > 0.0f) {
         PathLimits limits = receiver_limits(&params, receivers + packet, lane, false);
-        limits.aim = receiver_aim(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_rays,
-                                  params.rays);
+        limits.aim = caustic_aim_at(&caustic_table, caustic_cells, caustic_targets, at.x, params.aimed_rays,
+                                    params.rays);
         const uint4 keys = receiver_keys(receivers + packet, lane, at.x, params.seed);
         for (uint ray = 0; limits.aim.count > 0 && ray < NEARLIGHT_CAUSTIC_ERROR_RAYS; ++ray) {
             add_caustic_error(&sum, &scene, &at, &limits, sample_2d(ray, 3, keys.x),

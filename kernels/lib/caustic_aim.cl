@@ -36,10 +36,13 @@ static inline CausticAim no_caustic_aim(void) {
     return aim;
 }
 
-/// The targets of the smallest cell around x that has some. The numbers of rays are still to be set.
+/// The targets of the smallest cell around x that has some, for a receiver that sends so many rays.
 static inline CausticAim caustic_aim_at(const CausticTable* table, const global CausticCell* cells,
-                                        const global Vec3* targets, float3 x) {
+                                        const global Vec3* targets, float3 x, uint aimed_rays,
+                                        uint cosine_rays) {
     CausticAim aim = no_caustic_aim();
+    aim.aimed_rays = aimed_rays;
+    aim.cosine_rays = cosine_rays;
     for (uint level = table->size == 0 ? 0 : NEARLIGHT_CAUSTIC_LEVELS; level-- > 0;) {
         const float side = table->side / (float)(1u << level);
         const int3 at = (int3)(caustic_coordinate(x.x, side, 0.0f), caustic_coordinate(x.y, side, 0.0f),

@@ -88,6 +88,17 @@ TEST(Obj, EntriesWithoutAColorAreGrey) {
     }
 }
 
+TEST(Obj, EntriesWithoutAColorLeaveThoseOfVertices) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl m\nNs 10\n");
+    const Scene scene =
+        load_obj(files, "mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nusemtl m\nf 1 2 3\n");
+    const Material& surface = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    expect_near(surface.reflectance.value, {1, 1, 1});
+    EXPECT_GE(surface.reflectance.texture, 0);
+    EXPECT_FALSE(has_note(scene, "without any colour"));
+}
+
 TEST(Obj, HaloIsNoOpacity) {
     const SceneFiles files;
     files.write("m.mtl", "newmtl m\nKd 1 1 1\nd -halo 0.25\n");

@@ -68,7 +68,7 @@ class ObjMaterials {
         return find_in_block(source.library.text, source.begin, "newmtl", word, value) > 0;
     }
 
-    /// Whether the entry gives a colour to any light that the surface reflects, lets through or emits.
+    /// Whether the entry gives a colour to the light that the surface reflects or emits.
     static bool says_color(const MaterialSource& source) {
         return std::ranges::any_of(std::array{"Kd", "map_Kd", "Ks", "map_Ks", "Ke", "map_Ke"},
                                    [&](const char* word) { return says(source, word); });
@@ -207,7 +207,9 @@ class ObjMaterials {
         if (!(clamped(given) == given)) {
             approximate(source, "a diffuse reflectance (Kd) lies outside 0 to 1 and is limited");
         }
-        if (!says_color(source)) {
+        if (!says_color(source) && has_colors_) {
+            material = diffuse_material({1, 1, 1});  // those of the vertices multiply it
+        } else if (!says_color(source)) {
             approximate(source, "a material without any colour (Kd, Ks, Ke) is grey");
             material = diffuse_material({0.5f, 0.5f, 0.5f});
         }
