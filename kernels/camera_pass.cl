@@ -59,7 +59,7 @@ static inline CameraReceiver absent_receiver(void) {
     receiver.vertex.camera_light = store3((float3)(0.0f));
     receiver.vertex.filter_weight = 0.0f;
     receiver.vertex.traced_direct = receiver.vertex.traced_indirect = store3((float3)(0.0f));
-    receiver.vertex.pad0 = receiver.vertex.pad1 = 0.0f;
+    receiver.vertex.film_x = receiver.vertex.film_y = 0.0f;
     receiver.seen.light_samples = 0;
     return receiver;
 }
@@ -86,6 +86,7 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
     path.camera_light = (float3)(0.0f);
     path.undivided = branch_count > 1;
     path.filter_weight = start.film.weight;
+    path.film = start.film.position - ((float2)((float)x, (float)y) + 0.5f);
     path.flags = start.film.is_in_own_pixel ? NEARLIGHT_VERTEX_OWN_PIXEL : 0;
     return path;
 }
@@ -158,6 +159,8 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
                                     CameraPath* path, uint branch, SurfaceHit* first) {
     CameraReceiver receiver = absent_receiver();
     receiver.vertex.filter_weight = path->filter_weight;
+    receiver.vertex.film_x = path->film.x;
+    receiver.vertex.film_y = path->film.y;
     const float3 straight = path->ray.direction;
     bool sees_sky = !camera->hides_emitters;
     for (uint step = 0; step < min(limits->max_edges, (uint)MAX_CHAIN); ++step) {

@@ -2,10 +2,12 @@
 // Film: adds the samples of a band to its pixels, and turns sums into the layers of the picture.
 //
 // One work-item for each pixel of the band; any work-group size. `sums` holds NEARLIGHT_FILM_CHANNELS floats
-// for each pixel, row by row. Samples are added one after the other in their order, so that several batches
-// give the same bits as one. shared/film_layers.h is the table of layers: film_add has a line for each of
-// them, and film_resolve goes through the table.
+// for each pixel, row by row. Where samples count in the pixels around theirs, too, splats.cl makes the
+// layers of light. Samples are added one after the other in their order, so that several batches give the
+// same bits as one. shared/film_layers.h is the table of layers: film_add has a line for each of them, and
+// film_resolve goes through the table.
 
+#include "lib/film_light.cl"
 #include "lib/halves.cl"
 #include "lib/math.cl"
 #include "shared/film_layers.h"
@@ -20,9 +22,6 @@ static inline void store_channels(global float* channels, float3 v) {
     channels[0] = v.x;
     channels[1] = v.y;
     channels[2] = v.z;
-}
-static inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
-    return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);
 }
 
 /// Whether a sample's position and depth replace the stored ones: the first sample that met something on the
@@ -40,23 +39,13 @@ static inline void keep_light(global float* pixel) {
     }
 }
 
-/// What a receiver gets, W/m².
-typedef struct IrradianceOfSample {
-    float3 direct, indirect;
-} IrradianceOfSample;
-
 /// Adds the light that comes by one branch of a sample. Only light has the filter's weights. Surfaces are
 /// averaged over where the samples lie, so that no layer of them overshoots where the filter is negative.
-static inline void add_light(global float* pixel, const CameraVertex* vertex,
-                             const IrradianceOfSample* light) {
-    const float3 reflectance = load3(vertex->throughput) * load3(vertex->albedo);
-    const float weight = vertex->filter_weight;
-    const float3 response = weight * reflectance / M_PI_F;
-    const float3 direct = load3(vertex->camera_light) + load3(vertex->traced_direct);
-    add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, weight * direct + response * light->direct);
-    add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT,
-               weight * load3(vertex->traced_indirect) + response * light->indirect);
-    add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance);
+static inline void add_light(global float* pixel, const CameraVertex* vertex, const FilmLight* received) {
+    const FilmLight light = branch_light(vertex, received, vertex->filter_weight);
+    add_to_sum(pixel + NEARLIGHT_SUM_DIRECT, light.direct);
+    add_to_sum(pixel + NEARLIGHT_SUM_INDIRECT, light.indirect);
+    add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance_of(vertex));
 }
 
 /// Adds what the first branch of a sample saw.
@@ -92,10 +81,9 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
         for (uint branch = 0; branch < order.branch_count; ++branch) {
             const uint packet = packet_at(order, place.column, place.row, sample, branch);
             const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
-            const IrradianceOfSample light = {
-                irradiance_of(direct + packet, lane),
-                irradiance_of(gathered + packet, lane) + irradiance_of(indirect + packet, lane)};
-            add_light(pixel, &vertex, &light);
+            const FilmLight received =
+                received_by(direct + packet, gathered + packet, indirect + packet, lane);
+            add_light(pixel, &vertex, &received);
             if (first_sample + sample < samples_per_pixel / 2) {
                 keep_light(pixel);
             }
@@ -143,16 +131,13 @@ static inline void resolve_light(const global float* sums, uint first, uint coun
     }
 }
 
-/// The halves of a pixel's samples are not drawn one by one but complement each other: they ask different
-/// strata of the VPLs and lie in each other's gaps in the pixel. kHalvesToWhole is what this leaves of the
-/// variance (bench/log/error.md).
-constant float kHalvesToWhole = 0.72f;
 static inline void resolve_spread(const global float* sums, uint first, uint count, float scale,
                                   global float* layer) {
     const uint samples = (uint)rint(1.0f / scale);
     for (uint c = 0; c < count; ++c) {
         const float light = sums[NEARLIGHT_SUM_DIRECT + c] + sums[NEARLIGHT_SUM_INDIRECT + c];
-        layer[c] = kHalvesToWhole * variance_by_halves(sums[first + c], light - sums[first + c], samples);
+        layer[c] =
+            NEARLIGHT_HALVES_TO_WHOLE * variance_by_halves(sums[first + c], light - sums[first + c], samples);
     }
 }
 

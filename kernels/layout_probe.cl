@@ -14,6 +14,7 @@
 #include "shared/packet_order.h"
 #include "shared/receiver_paths.h"
 #include "shared/shared_light.h"
+#include "shared/splats.h"
 #include "shared/types.h"
 #include "shared/walk_aim.h"
 

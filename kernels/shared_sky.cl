@@ -154,6 +154,6 @@ kernel void shared_sky_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
                                    lengths[bundle], seen_by + first * BUNDLE_WORDS, place);
     add_irradiance_to(irradiance + packet, lane, light.irradiance);
     if (at.seen_samples > 0.0f) {
-        vertices[receiver].camera_light = store3(load3(vertices[receiver].camera_light) + light.reflected);
+        vertices[receiver].traced_direct = store3(load3(vertices[receiver].traced_direct) + light.reflected);
     }
 }

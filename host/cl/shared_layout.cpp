@@ -15,6 +15,7 @@
 #include "kernels/shared/packet_order.h"
 #include "kernels/shared/receiver_paths.h"
 #include "kernels/shared/shared_light.h"
+#include "kernels/shared/splats.h"
 #include "kernels/shared/types.h"
 #include "kernels/shared/walk_aim.h"
 

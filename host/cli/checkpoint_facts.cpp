@@ -57,6 +57,7 @@ Facts settings_facts(const Scene& scene, const RenderSettings& settings) {
     facts["--direct-samples"] = or_auto(gather.direct_samples_per_pixel);
     facts[kCompensate] = on_off(gather.compensate);
     facts["--refine"] = on_off(gather.refine);
+    facts["--splat"] = on_off(gather.splat);
     facts["--rays"] = gather.rays_per_pixel;
     facts["--roulette"] = gather.roulette;
     facts["indirect_only"] = gather.indirect_only;

@@ -87,6 +87,16 @@ void add_refine_option(CLI::App& command, GatherSettings& gather) {
         ->default_str("on");
 }
 
+void add_splat_option(CLI::App& command, std::string& splat) {
+    command
+        .add_option("--splat", splat,
+                    "on: samples count in all pixels whose reconstruction filter reaches them, which takes "
+                    "half of the noise or more; off: in their own pixel alone, so that pixels have noise of "
+                    "their own, as denoisers expect (default: on, with --denoise or mattes off)")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off");
+}
+
 void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot) {
     command
         .add_option("--range", texts.range,

@@ -27,6 +27,9 @@ enum class Pilot { runs, is_left_out };
 void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot);
 /// Adds --refine, for commands whose passes have several samples.
 void add_refine_option(CLI::App& command, GatherSettings& gather);
+/// Adds --splat, for commands that make pictures of several samples; the text stays empty where it is not
+/// given.
+void add_splat_option(CLI::App& command, std::string& splat);
 /// Adds --sampler, --policy, --vpls, --cuts, --vpl-set and --close-fraction.
 void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts);
 /// Adds --range, --clamp-radius, --compensate, --rays, --max-depth, --seed and --roulette.

@@ -136,6 +136,7 @@ void add_render_command(CommandLine& line) {
     add_glass_option(command, options->scene.clear_glass);
     add_sample_options(command, options->settings.gather, Pilot::runs);
     add_refine_option(command, options->settings.gather);
+    add_splat_option(command, options->splat);
     command
         .add_option(
             "--strata", options->settings.gather.strata,

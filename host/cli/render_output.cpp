@@ -78,6 +78,7 @@ void add_method(nlohmann::ordered_json& json, const RenderFacts& facts) {
     json["direct_samples_per_pixel"] = report.ray_budget.direct_samples_per_pixel;
     json["compensate"] = settings.gather.compensate;
     json["refine"] = settings.gather.refine;
+    json["splat"] = settings.gather.splat;
     json["glass"] = glass_name(facts.scene.clear_glass);
     json["max_depth"] = report.max_depth;
     json["filter"] = to_string(report.filter);
@@ -163,6 +164,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
         static_cast<int>(report.ray_budget.direct_samples_per_pixel);
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
     metadata["nearlight:refine"] = settings.gather.refine ? "on" : "off";
+    metadata["nearlight:splat"] = settings.gather.splat ? "on" : "off";
     metadata["nearlight:glass"] = glass_name(scene.clear_glass);
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);

@@ -193,6 +193,9 @@ RenderSettings settled(const RenderOptions& options) {
     settings.seconds = options.passes.seconds;
     settings.error = options.passes.error;
     settings.pass_samples = options.passes.pass_samples;
+    // Denoisers want noise that neighbours do not share, and mattes have samples of each pixel's own.
+    const bool wants_own = options.picture.denoise || !matte_layers(options.picture.layers).empty();
+    settings.gather.splat = options.splat.empty() ? !wants_own : options.splat == "on";
     settle(options.method, settings);
     settle(options.vpl_files, settings);
     if (options.size.width > 0) {

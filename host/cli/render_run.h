@@ -40,6 +40,7 @@ struct RenderOptions {
     CheckpointOptions checkpoint;
     FrameOptions frames;
     std::string tev;
+    std::string splat;  ///< "on", "off", or empty: on unless the picture is denoised or has mattes
     MpiUse mpi = MpiUse::automatic;
     int threads = 0;  ///< 0: one per core
 };

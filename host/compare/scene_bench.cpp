@@ -127,6 +127,7 @@ RenderSettings SceneBench::render_settings(const Method& method, uint vpls, uint
                        .strata = 1,
                        .compensate = false,
                        .refine = false,
+                       .splat = false,
                        .indirect_only = true},
             .seed = seed};
 }

@@ -28,14 +28,14 @@ std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSample
 }
 
 /// The variance of the mean of `samples`, whose first half (without the middle one) and second half add up to
-/// the given numbers. The factor is that of kernels/film.cl.
+/// the given numbers.
 double variance_of(double first, double second, uint samples) {
     const double in_first = samples / 2;
     const double in_second = samples - in_first;
     const double mean = (first + second) / samples;
     const double squares = in_first * std::pow(first / in_first - mean, 2.0) +
                            in_second * std::pow(second / in_second - mean, 2.0);
-    return 0.72 * squares / samples;
+    return double{NEARLIGHT_HALVES_TO_WHOLE} * squares / samples;
 }
 
 }  // namespace
@@ -75,9 +75,9 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
                                         .camera_light = color(),
                                         .filter_weight = 2.0f * random.uniform() - 0.5f,
                                         .traced_direct = color(),
-                                        .pad0 = 0.0f,
+                                        .film_x = random.uniform() - 0.5f,
                                         .traced_indirect = color(),
-                                        .pad1 = 0.0f});
+                                        .film_y = random.uniform() - 0.5f});
         }
     }
     return samples;

@@ -128,5 +128,6 @@ void check_film(Device& device, CheckResult& result);
 /// A case is a half of the light that the camera paths of a pixel bring, the rounds of further paths that the
 /// pixel gets, or its light after one of them.
 void check_camera_lights(Device& device, CheckResult& result);
+void check_splats(Device& device, CheckResult& result);
 
 }  // namespace nearlight::core

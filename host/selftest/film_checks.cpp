@@ -5,9 +5,12 @@
 
 #include "host/reference/camera_lights_oracle.h"
 #include "host/reference/film_oracle.h"
+#include "host/reference/splat_oracle.h"
+#include "host/scene/camera.h"
 #include "host/selftest/checks.h"
 #include "host/stages/camera_lights.h"
 #include "host/stages/film.h"
+#include "host/stages/splats.h"
 
 namespace nearlight::core {
 
@@ -93,6 +96,52 @@ void check_camera_lights(Device& device, CheckResult& result) {
         const double before = double{found[pixel].first.x} + double{found[pixel].second.x};
         result.expect(std::abs(refined[pixel * NEARLIGHT_FILM_CHANNELS + NEARLIGHT_SUM_DIRECT] -
                                (1.0 + 0.5 * (3.0 - before))) <= 2e-5);
+    }
+}
+
+void check_splats(Device& device, CheckResult& result) {
+    const FilmLayout layout{.width = 29, .height = 21, .samples = 4};
+    const FilmSamples samples = random_film_samples(layout);
+    SceneCamera scene_camera;
+    scene_camera.filter = default_filter(FilterKind::tent);
+    Camera camera =
+        make_camera(scene_camera, static_cast<int>(layout.width), static_cast<int>(layout.height));
+    camera.splat_reach = 1;
+    const std::size_t pixels = std::size_t{layout.width} * layout.height;
+    const SplatPixels size{layout.width, layout.height, layout.samples / 2};
+    const CameraBatch batch = whole_batch(layout);
+    const Buffer<Camera> cameras(device, std::span(&camera, 1));
+    const Buffer<CameraVertex> vertices(device, samples.vertices);
+    const Buffer<IrradiancePacket> direct(device, samples.direct);
+    const Buffer<IrradiancePacket> gathered(device, samples.gathered);
+    const Buffer<IrradiancePacket> indirect(device, samples.indirect);
+    Buffer<Splat> splats(device, pixels * splats_per_pixel(1));
+    Buffer<CameraSplat> camera_splats(device, pixels * splats_per_pixel(1));
+    Buffer<RowSplat> rows(device, pixels * splat_rows(1));
+    splats.fill_zero();
+    camera_splats.fill_zero();
+    Splats stage(device);
+    stage.add(vertices, {.direct = direct, .gathered = gathered, .indirect = indirect}, cameras, batch, size,
+              false, splats);
+    stage.add_camera_light(vertices, cameras, batch, size, camera_splats);
+    std::vector<uint> all(pixels);
+    std::iota(all.begin(), all.end(), 0u);
+    // The mean of the camera light and the same light again is that light.
+    const Buffer<CameraSplat> again(device, camera_splats.download());
+    stage.refine(Buffer<uint>(device, all), 0, pixels, 1, again, 1.0f, camera_splats);
+    stage.gather(splats, &camera_splats, size, 1, rows);
+    const std::vector<RowSplat> found = rows.download();
+    for (uint y = 0; y < layout.height; ++y) {
+        for (uint x = 0; x < layout.width; ++x) {
+            const SplattedLight expected = expected_splatted_light(samples, layout, camera, x, y);
+            const SplattedLight light = light_of_splats(found, layout, 1, x, y);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double scale = 1.0 + std::abs(expected.direct[c]) + std::abs(expected.indirect[c]);
+                result.expect(std::abs(light.direct[c] - expected.direct[c]) <= 1e-4 * scale);
+                result.expect(std::abs(light.indirect[c] - expected.indirect[c]) <= 1e-4 * scale);
+            }
+            result.expect(std::abs(light.coverage - expected.coverage) <= 1e-4);
+        }
     }
 }
 

@@ -44,7 +44,8 @@ std::vector<NamedCheck> all_checks() {
             {"camera pass", check_camera_pass},
             {"first surfaces", check_first_surfaces},
             {"camera lights", check_camera_lights},
-            {"film", check_film}};
+            {"film", check_film},
+            {"splats", check_splats}};
 }
 
 }  // namespace

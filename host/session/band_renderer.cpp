@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "host/base/division.h"
 #include "host/session/receiver_weight.h"
+#include "host/session/splat_rows.h"
 
 namespace nearlight::core {
 namespace {
@@ -58,7 +60,7 @@ std::size_t pixels_per_band(const PictureTask& picture) {
 }  // namespace
 
 BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, std::size_t pixels,
-                                         const ReceiverPathSettings& paths)
+                                         const ReceiverPathSettings& paths, uint reach)
     : receivers(device, packets),
       vertices(device, packets * NEARLIGHT_PACKET_SIZE),
       seen(device, paths.shares_sky ? packets * NEARLIGHT_PACKET_SIZE : 0),
@@ -67,7 +69,9 @@ BandRenderer::BatchBuffers::BatchBuffers(Device& device, std::size_t packets, st
       found(device, packets, paths),
       gathered(device, packets),
       sums(device, pixels * NEARLIGHT_FILM_CHANNELS),
-      layers(device, pixels * NEARLIGHT_LAYER_CHANNELS) {}
+      layers(device, pixels * NEARLIGHT_LAYER_CHANNELS),
+      splats(device, reach > 0 ? pixels * splats_per_pixel(reach) : 0),
+      row_splats(device, reach > 0 ? pixels * splat_rows(reach) : 0) {}
 
 void BandStages::expect(const DeviceScene& scene) {
     if (scene.has_sky()) {
@@ -91,7 +95,11 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
       close_range_(stages.device, std::span(&picture.close_range, 1)),
       own_vpls_(vpls.is_on(stages.device) ? VplBuffer() : vpls.copy_to(stages.device)),
       paths_(path_settings(scene, picture)),
-      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture), paths_) {
+      buffers_(stages.device, picture.plan.max_packets(), pixels_per_band(picture), paths_,
+               picture.camera.splat_reach) {
+    if (reach() > 0 && !stages.splats) {
+        stages.splats.emplace(stages.device);
+    }
     if (picture.local) {
         if (!stages.local_gather) {
             stages.local_gather.emplace(stages.device);
@@ -108,8 +116,11 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
         if (!stages.refinement) {
             stages.refinement.emplace(stages.device);
         }
-        refinement_.emplace(stages.device, *stages.refinement, pixels_per_band(picture),
-                            picture.plan.max_packets(), picture.settings.samples_per_pixel);
+        refinement_.emplace(stages.device, *stages.refinement, stages.splats ? &*stages.splats : nullptr,
+                            RefinementSize{.max_pixels = pixels_per_band(picture),
+                                           .max_packets = picture.plan.max_packets(),
+                                           .sample_count = picture.settings.samples_per_pixel,
+                                           .splat_reach = reach()});
     }
 }
 
@@ -224,17 +235,31 @@ bool BandRenderer::add_batch(const CameraBatch& batch, uint row_count, const Gat
     const std::size_t packets = packet_count(batch, width);
     stages_.camera_pass.run(camera_input(batch), camera_output());
     if (refinement_) {
-        refinement_->add(batch, buffers_.vertices);
+        refinement_->add(batch, camera_, buffers_.vertices);
     }
     trace_receivers(packets);
     const bool finished = gather_vpls(batch, progress);
     if (finished) {
-        stages_.film.add(
-            buffers_.receivers, buffers_.vertices,
-            {.direct = buffers_.direct, .gathered = buffers_.gathered.light, .indirect = buffers_.indirect},
-            batch, width, row_count, buffers_.sums);
+        add_to_film(batch, row_count);
     }
     return finished;
+}
+
+SplatPixels BandRenderer::splat_pixels(uint row_count) const {
+    return {.width = picture_.plan.cover.width,
+            .row_count = row_count,
+            .half_end = picture_.settings.samples_per_pixel / 2};
+}
+
+void BandRenderer::add_to_film(const CameraBatch& batch, uint row_count) {
+    const ReceivedIrradiance light{
+        .direct = buffers_.direct, .gathered = buffers_.gathered.light, .indirect = buffers_.indirect};
+    stages_.film.add(buffers_.receivers, buffers_.vertices, light, batch, picture_.plan.cover.width,
+                     row_count, buffers_.sums);
+    if (reach() > 0) {
+        stages_.splats->add(buffers_.vertices, light, camera_, batch, splat_pixels(row_count), !refinement_,
+                            buffers_.splats);
+    }
 }
 
 /// Gives pixels of the band of `batch` more camera paths where they need them. Returns false if cancelled.
@@ -253,6 +278,9 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress&
     FinishedBand band;
     const std::size_t lights_before = picture_.local ? stages_.local_gather->light_count() : 0;
     buffers_.sums.fill_zero();
+    if (reach() > 0) {
+        buffers_.splats.fill_zero();
+    }
     if (refinement_) {
         refinement_->begin({cover.x, cover.y + first_row, cover.width, row_count});
     }
@@ -268,12 +296,25 @@ std::optional<FinishedBand> BandRenderer::render(uint index, const WorkProgress&
     if (!refine(batches.front(), progress)) {
         return std::nullopt;
     }
-    const std::size_t pixel_count = static_cast<std::size_t>(cover.width) * row_count;
-    stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
     band.local_lights = picture_.local ? stages_.local_gather->light_count() - lights_before : 0;
-    band.rows.resize(pixel_count * NEARLIGHT_LAYER_CHANNELS);
-    buffers_.layers.download(band.rows);
+    band.rows = finished_rows(row_count);
     return band;
+}
+
+std::vector<float> BandRenderer::finished_rows(uint row_count) {
+    const std::size_t pixel_count = static_cast<std::size_t>(picture_.plan.cover.width) * row_count;
+    stages_.film.resolve(buffers_.sums, pixel_count, picture_.settings.samples_per_pixel, buffers_.layers);
+    std::vector<float> rows(pixel_count * band_floats_per_pixel(reach()));
+    const std::size_t layers = pixel_count * NEARLIGHT_LAYER_CHANNELS;
+    buffers_.layers.download(std::span(rows).first(layers));
+    if (reach() > 0) {
+        stages_.splats->gather(buffers_.splats, refinement_ ? refinement_->splats() : nullptr,
+                               splat_pixels(row_count), reach(), buffers_.row_splats);
+        std::vector<RowSplat> splats(pixel_count * splat_rows(reach()));
+        buffers_.row_splats.download(splats);
+        std::memcpy(rows.data() + layers, splats.data(), splats.size() * sizeof(RowSplat));
+    }
+    return rows;
 }
 
 }  // namespace nearlight::core

@@ -20,6 +20,7 @@
 #include "host/stages/shared_reflections.h"
 #include "host/stages/shared_sky.h"
 #include "host/stages/shared_veiled.h"
+#include "host/stages/splats.h"
 
 namespace nearlight::core {
 
@@ -53,6 +54,7 @@ struct BandStages {
     std::optional<Roulette> roulette{};
     std::optional<LightCuts> light_cuts{};
     std::optional<RefinementStages> refinement{};
+    std::optional<Splats> splats{};
 };
 
 /// What, besides the scene and the VPLs, all bands of a picture have in common. It consists of plain numbers,
@@ -78,14 +80,15 @@ class BandRenderer {
     BandRenderer(BandStages& stages, const DeviceScene& scene, const PictureTask& picture,
                  const VplBuffer& vpls);
 
-    /// Renders the rows of band `index` of picture.plan, with all layers. Returns nothing if cancelled.
+    /// Renders the rows of band `index` of picture.plan, with all layers and splats (splat_rows.h). Returns
+    /// nothing if cancelled.
     std::optional<FinishedBand> render(uint index, const WorkProgress& progress);
 
   private:
     /// Device memory that all batches use one after the other.
     struct BatchBuffers {
         BatchBuffers(Device& device, std::size_t packets, std::size_t pixels,
-                     const ReceiverPathSettings& paths);
+                     const ReceiverPathSettings& paths, uint reach);
 
         Buffer<ReceiverPacket> receivers;
         Buffer<CameraVertex> vertices;
@@ -96,14 +99,20 @@ class BandRenderer {
         GatherSums<Vpl> gathered;
         Buffer<float> sums;
         Buffer<float> layers;
+        Buffer<Splat> splats;         ///< none where samples count in their own pixel alone
+        Buffer<RowSplat> row_splats;  ///< likewise
     };
 
+    [[nodiscard]] uint reach() const { return picture_.camera.splat_reach; }
+    [[nodiscard]] SplatPixels splat_pixels(uint row_count) const;
     void trace_receivers(std::size_t packets);
     void trace_sharing_receivers(std::size_t packets);
     [[nodiscard]] CameraPassInput camera_input(const CameraBatch& batch) const;
     CameraPassOutput camera_output();
     bool add_batch(const CameraBatch& batch, uint row_count, const GatherProgress& progress);
+    void add_to_film(const CameraBatch& batch, uint row_count);
     bool refine(const CameraBatch& batch, const WorkProgress& progress);
+    std::vector<float> finished_rows(uint row_count);
     bool gather_vpls(const CameraBatch& batch, const GatherProgress& progress);
     std::optional<VplSelection> select_vpls(std::size_t packets, const VplStrata& strata);
     [[nodiscard]] const VplBuffer& vpls() const;

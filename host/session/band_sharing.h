@@ -14,7 +14,7 @@
 namespace nearlight::core {
 
 struct FinishedBand {
-    std::vector<float> rows;       ///< width · NEARLIGHT_LAYER_CHANNELS floats each, top to bottom
+    std::vector<float> rows;       ///< from top to bottom, as band_floats_per_pixel() describes them
     std::size_t local_lights = 0;  ///< number of local lights that were made for the band
 };
 /// Takes how far a piece of work is, from 0 to 1, and returns false to stop it.

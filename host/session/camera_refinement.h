@@ -6,6 +6,7 @@
 
 #include "host/stages/camera_lights.h"
 #include "host/stages/compaction.h"
+#include "host/stages/splats.h"
 
 namespace nearlight::core {
 
@@ -20,22 +21,32 @@ struct RefinementStages {
 /// With fewer samples a pixel, their variance is too uncertain to choose by.
 inline constexpr uint kMinRefinedSamples = 4;
 
+/// How much a refinement has to do.
+struct RefinementSize {
+    std::size_t max_pixels = 0;   ///< of a band
+    std::size_t max_packets = 0;  ///< of a batch
+    uint sample_count = 0;        ///< of each pixel, at least kMinRefinedSamples
+    uint splat_reach = 0;         ///< Camera::splat_reach
+};
+
 class CameraRefinement {
   public:
-    /// For bands of up to `max_pixels` pixels and batches of up to `max_packets` packets. `sample_count` is
-    /// that of each pixel, at least kMinRefinedSamples. Keeps a reference to `stages`.
-    CameraRefinement(Device& device, RefinementStages& stages, std::size_t max_pixels,
-                     std::size_t max_packets, uint sample_count);
+    /// Keeps references to the stages. `splat_stage` may be null if samples count in their own pixel alone.
+    CameraRefinement(Device& device, RefinementStages& stages, Splats* splat_stage,
+                     const RefinementSize& size);
 
     /// Starts a band, which has these pixels of the picture.
     void begin(const PixelWindow& pixels);
     /// Adds what the camera pass of a batch wrote. Must come before anything else changes the vertices.
-    void add(const CameraBatch& batch, const Buffer<CameraVertex>& vertices);
+    void add(const CameraBatch& batch, const Buffer<Camera>& camera, const Buffer<CameraVertex>& vertices);
     /// Launches the camera pass for the pixels that get more samples, and changes the band's sums of the
     /// film. `input` is that of one of the band's batches, and `output` has room for `max_packets`. Asks
     /// `goes_on` after every launch of the camera pass; returns false if that said no.
     bool finish(CameraPass& camera_pass, const CameraPassInput& input, const CameraPassOutput& output,
                 Buffer<float>& sums, const std::function<bool()>& goes_on);
+
+    /// The splats of the camera light of the band's pixels; null if samples count in their own pixel alone.
+    [[nodiscard]] const Buffer<CameraSplat>* splats() const;
 
   private:
     bool add_round(CameraPass& camera_pass, CameraPassInput input, const CameraPassOutput& output,
@@ -43,13 +54,16 @@ class CameraRefinement {
 
     Device* device_;
     RefinementStages* stages_;
-    std::size_t max_packets_;
-    uint sample_count_;
+    Splats* splat_stage_;
+    RefinementSize size_;
     PixelWindow pixels_{};
     Buffer<CameraLight> lights_;
     Buffer<CameraLight> added_;  ///< what a round brings to the pixels of one list
     Buffer<uint> rounds_;        ///< that each pixel still gets
     Buffer<uint> listed_;        ///< numbers of the pixels that get the next round
+    // Both are empty if samples count in their own pixel alone.
+    Buffer<CameraSplat> splats_;
+    Buffer<CameraSplat> added_splats_;  ///< like added_
 };
 
 }  // namespace nearlight::core

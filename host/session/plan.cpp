@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/random.h"
+#include "host/stages/splats.h"
 
 namespace nearlight::core {
 namespace {
@@ -120,8 +121,11 @@ std::size_t RenderPlan::max_packets() const {
 /// Little enough for memory and for a smooth progress bar.
 std::size_t receivers_per_batch(const Device& device) {
     const std::size_t wanted = device.tunables().batch_receivers;
-    // The largest buffer of a batch is that of the camera vertices.
-    const std::size_t largest = device.entry().max_allocation_bytes / (2 * sizeof(CameraVertex));
+    // The largest buffers of a batch are those of the camera vertices and of the splats of pixels, each of
+    // which has at least one receiver.
+    const std::size_t of_receiver =
+        std::max(2 * sizeof(CameraVertex), splats_per_pixel(NEARLIGHT_MAX_SPLAT_REACH) * sizeof(Splat));
+    const std::size_t largest = device.entry().max_allocation_bytes / of_receiver;
     return std::min(wanted, std::max<std::size_t>(largest, NEARLIGHT_PACKET_SIZE));
 }
 

@@ -10,6 +10,7 @@
 #include "host/session/receiver_weight.h"
 #include "host/session/session.h"
 #include "host/session/sky_part.h"
+#include "host/session/splat_rows.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -19,9 +20,9 @@ namespace {
 constexpr std::size_t kMaxWaitingBytes = std::size_t{256} << 20u;
 
 /// How many finished bands may wait for an earlier one.
-uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count) {
+uint max_waiting_bands(const RenderPlan& plan, std::size_t device_count, uint reach) {
     const std::size_t band_bytes = std::size_t{plan.cover.width} * plan.tile_rows_per_band *
-                                   NEARLIGHT_TILE_SIZE * NEARLIGHT_LAYER_CHANNELS * sizeof(float);
+                                   NEARLIGHT_TILE_SIZE * band_floats_per_pixel(reach) * sizeof(float);
     return static_cast<uint>(std::max<std::size_t>(2 * device_count, kMaxWaitingBytes / band_bytes));
 }
 
@@ -39,6 +40,15 @@ std::vector<BandWorker> band_workers(const DevicePool& pool, const PictureTask& 
                            }});
     }
     return workers;
+}
+
+/// The part of the picture with samples that count in the window.
+PixelWindow with_border(const PixelWindow& window, const Camera& camera) {
+    const uint reach = camera.splat_reach;
+    const uint x = window.x - std::min(window.x, reach);
+    const uint y = window.y - std::min(window.y, reach);
+    return {x, y, std::min(window.x + window.width + reach, camera.width) - x,
+            std::min(window.y + window.height + reach, camera.height) - y};
 }
 
 /// Replaces the colours of all layers of light by their luminance.
@@ -72,6 +82,8 @@ std::vector<double> work_of(DevicePool& pool, const PictureTask& picture, const 
 std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vpls,
                                               const GatherSettings& settings, uint seed) {
     const PixelWindow window = window_of(view, settings);
+    Camera camera = view.camera;
+    camera.splat_reach = splat_reach(view.scene_camera, settings);
     std::vector<RemoteDevice> devices = own_devices();
     devices.insert(devices.end(), remote_.devices.begin(), remote_.devices.end());
     std::vector<std::size_t> batch_receivers;
@@ -83,8 +95,8 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                                     .branch_count = pool_.leader().scene.divides_paths ? 2u : 1u,
                                     .strata = settings.strata_or_auto(),
                                     .interleave = settings.interleave,
-                                    .window = window});
-    const PictureTask picture{.camera = view.camera,
+                                    .window = with_border(window, camera)});
+    const PictureTask picture{.camera = camera,
                               .close_range = view.close_range,
                               .max_depth = view.max_depth,
                               .settings = settings,
@@ -111,16 +123,22 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
     const std::shared_ptr<PlannedPicture> planned =
         order.present ? order.present : plan(view, vpls, settings, seed);
     const RenderPlan& plan = planned->task.plan;
+    const uint reach = planned->task.camera.splat_reach;
+    SplatRows splats(plan.cover.width, reach, plan.samples_per_pixel);
     WindowCut window_cut(plan.cover, planned->window);
     GatherOutcome outcome;
+    const auto send = [&](std::span<float> rows) {
+        if (view.scene_camera.is_monochrome) {
+            make_monochrome(rows);
+        }
+        if (const std::span<const float> wanted = window_cut.cut(rows); !wanted.empty()) {
+            sink(wanted);
+        }
+    };
     const auto take_band = [&](FinishedBand& band) {
         outcome.local_lights += band.local_lights;
-        if (view.scene_camera.is_monochrome) {
-            make_monochrome(band.rows);
-        }
-        if (const std::span<const float> rows = window_cut.cut(band.rows); !rows.empty()) {
-            sink(rows);
-        }
+        splats.take(band.rows);
+        send(band.rows);
     };
     const std::vector<double> strips = work_of(pool_, planned->task, view);
     std::vector<BandWorker> workers = band_workers(pool_, planned->task, vpls.vpls);
@@ -130,8 +148,12 @@ GatherOutcome Session::gather(const View& view, const VplSet& vpls, const Gather
     }
     add_remote_workers(remote_, *planned, next, workers);
     BandOutcome shared = share_bands(
-        plan.band_count(), max_waiting_bands(plan, workers.size()), workers, take_band,
+        plan.band_count(), max_waiting_bands(plan, workers.size(), reach), workers, take_band,
         [&](double fraction) { return progress(part_of_work(plan, view.camera.height, strips, fraction)); });
+    if (!shared.interrupted) {
+        std::vector<float> last = splats.finish();
+        send(last);
+    }
     drop_failed(shared.shares);
     outcome.shares = std::move(shared.shares);
     outcome.interrupted = shared.interrupted;

@@ -5,3 +5,4 @@
 #include "film.cl"
 #include "receiver_paths.cl"
 #include "shared_lights.cl"
+#include "splats.cl"

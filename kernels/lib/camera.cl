@@ -5,7 +5,9 @@
 // in proportion to the filter's absolute value over the part of its support that the film has, and with a
 // weight of the filter's sign times a constant that makes the expectation of the weights 1. So the
 // expectation of a pixel is its filtered light, and no sample is shared between pixels. [Ernst, Stamminger &
-// Greiner, Filter Importance Sampling, 2006]
+// Greiner, Filter Importance Sampling, 2006] Where samples count in the pixels around theirs, too
+// (splats.cl), they are spread evenly over their own pixel, and those of pixels at the border also over what
+// the film has beyond it. Their weight is then the area for which they stand.
 #ifndef NEARLIGHT_LIB_CAMERA
 #define NEARLIGHT_LIB_CAMERA
 
@@ -65,6 +67,19 @@ static inline float sample_filter(const global Camera* camera, float center, flo
     return center + clamp(offset, low, high);
 }
 
+/// A sample along one axis on the film that belongs to the pixel with the middle `center`: its own width, and
+/// for pixels at the border of the picture also what the film has beyond it, as far as their filter goes. The
+/// result is its place, and `weight` is multiplied by the width.
+static inline float sample_own_width(const global Camera* camera, float center, float picture_max,
+                                     float film_min, float film_max, float u, float* weight) {
+    const bool is_first = center < 1.0f;
+    const bool is_last = center > picture_max - 1.0f;
+    const float low = is_first ? fmax(center - camera->filter_radius, film_min) : center - 0.5f;
+    const float high = is_last ? fmin(center + camera->filter_radius, film_max) : center + 0.5f;
+    *weight *= high - low;
+    return mix(low, high, u);
+}
+
 /// The film sample of pixel (x, y) for the random point u.
 static inline FilmSample sample_film(const global Camera* camera, uint x, uint y, float2 u) {
     FilmSample sample;
@@ -76,10 +91,17 @@ static inline FilmSample sample_film(const global Camera* camera, uint x, uint y
         return sample;
     }
     const float2 center = corner + 0.5f;
-    sample.position.x =
-        sample_filter(camera, center.x, camera->film_min_x, camera->film_max_x, u.x, &sample.weight);
-    sample.position.y =
-        sample_filter(camera, center.y, camera->film_min_y, camera->film_max_y, u.y, &sample.weight);
+    if (camera->splat_reach > 0) {
+        sample.position.x = sample_own_width(camera, center.x, (float)camera->width, camera->film_min_x,
+                                             camera->film_max_x, u.x, &sample.weight);
+        sample.position.y = sample_own_width(camera, center.y, (float)camera->height, camera->film_min_y,
+                                             camera->film_max_y, u.y, &sample.weight);
+    } else {
+        sample.position.x =
+            sample_filter(camera, center.x, camera->film_min_x, camera->film_max_x, u.x, &sample.weight);
+        sample.position.y =
+            sample_filter(camera, center.y, camera->film_min_y, camera->film_max_y, u.y, &sample.weight);
+    }
     const float2 offset = fabs(sample.position - center);
     sample.is_in_own_pixel = offset.x <= 0.5f && offset.y <= 0.5f;
     return sample;

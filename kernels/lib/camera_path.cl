@@ -23,7 +23,8 @@ typedef struct CameraPath {
     float t_min;          // where the first surface may lie on the ray
     float t_max;
     float filter_weight;
-    uint flags;  // NEARLIGHT_VERTEX_OWN_PIXEL or 0
+    float2 film;  // CameraVertex.film_x and film_y
+    uint flags;   // NEARLIGHT_VERTEX_OWN_PIXEL or 0
 } CameraPath;
 
 /// The ways on from a surface.

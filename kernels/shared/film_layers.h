@@ -38,6 +38,11 @@
     LAYER(VARIANCE, "variance", RGB, spread, variance, asked, full) \
     LAYER(ALPHA, "A", A, mean, mean, asked, half)
 
+/// The halves of a pixel's samples are not drawn one by one but complement each other: they ask different
+/// strata of the VPLs and lie in each other's gaps in the pixel. This is what it leaves of the variance
+/// (bench/log/error.md).
+#define NEARLIGHT_HALVES_TO_WHOLE 0.72f
+
 // How many channels each word of the column `channels` stands for.
 #define NEARLIGHT_CHANNELS_RGB 3
 #define NEARLIGHT_CHANNELS_XYZ 3

@@ -8,7 +8,8 @@
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
 /// place where it expands must include bsdf_query.h, camera_pass.h, film_layers.h, light.h, light_cut.h,
-/// light_tracer.h, local_lights.h, packet_order.h, receiver_paths.h, shared_light.h, types.h and walk_aim.h.
+/// light_tracer.h, local_lights.h, packet_order.h, receiver_paths.h, shared_light.h, splats.h, types.h and
+/// walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \
@@ -54,6 +55,7 @@
     OFFSET(Camera, step_y)                          \
     OFFSET(Camera, focus_distance)                  \
     OFFSET(Camera, filter_radius)                   \
+    OFFSET(Camera, splat_reach)                     \
     OFFSET(Camera, filter_signed)                   \
     SIZE(Vpl)                                       \
     OFFSET(Vpl, power)                              \
@@ -112,6 +114,13 @@
     OFFSET(CameraVertex, filter_weight)             \
     OFFSET(CameraVertex, traced_direct)             \
     OFFSET(CameraVertex, traced_indirect)           \
+    OFFSET(CameraVertex, film_y)                    \
+    SIZE(Splat)                                     \
+    OFFSET(Splat, half_light)                       \
+    SIZE(CameraSplat)                               \
+    OFFSET(CameraSplat, second)                     \
+    SIZE(RowSplat)                                  \
+    OFFSET(RowSplat, camera)                        \
     SIZE(CausticLanding)                            \
     OFFSET(CausticLanding, is_there)                \
     SIZE(CausticCell)                               \

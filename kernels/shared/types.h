@@ -131,7 +131,8 @@ typedef struct Camera {
     float film_min_x, film_min_y;  // samples lie within these film positions
     float film_max_x, film_max_y;
     float filter_radius;  // pixels; 0: a box over the pixel's own square, which needs no tables
-    float pad0, pad1, pad2;
+    uint splat_reach;     // columns and rows to which samples count beyond their pixel's; 0: in it alone
+    float pad0, pad1;
     float filter_absolute[NEARLIGHT_FILTER_ENTRIES];
     float filter_signed[NEARLIGHT_FILTER_ENTRIES];
 } Camera;
@@ -256,11 +257,12 @@ typedef struct CameraVertex {
     // what surfaces on the way reflect of them by S.
     Vec3 camera_light;
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
-    // Radiance of a receiver of little weight, which is absent.
+    // Radiance of a receiver of little weight, which is absent, and of the sky that the first surface
+    // reflects by S, as far as its bundle found it (shared_sky.cl).
     Vec3 traced_direct;
-    float pad0;
+    float film_x;  // of the sample, from the middle of its pixel, pixels to the right
     Vec3 traced_indirect;
-    float pad1;
+    float film_y;  // likewise, pixels downwards
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
 #define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel

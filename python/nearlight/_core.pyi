@@ -107,6 +107,7 @@ class _GatherSettings(TypedDict, total=False):
     compensate: bool
     rays_per_pixel: int
     refine: bool
+    splat: bool
     indirect_only: bool
     shared_limit: float | None
     roulette: float
@@ -121,6 +122,7 @@ class GatherSettings:
     compensate: bool
     rays_per_pixel: int
     refine: bool
+    splat: bool
     indirect_only: bool
     shared_limit: float | None
     roulette: float

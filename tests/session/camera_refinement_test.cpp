@@ -143,12 +143,14 @@ TEST_F(CameraRefinementTest, RoundsAskWhetherToGoOn) {
         const CameraPassInput input{on_device.buffers, cameras, camera.width, regions, batch, 1};
         CameraPass camera_pass(device);
         RefinementStages stages(device);
-        CameraRefinement refinement(device, stages, pixels, packets, batch.sample_count);
+        CameraRefinement refinement(
+            device, stages, nullptr,
+            {.max_pixels = pixels, .max_packets = packets, .sample_count = batch.sample_count});
         const auto finishes_after = [&](int max_launches) {
             int launches = 0;
             refinement.begin({0, 0, camera.width, camera.height});
             camera_pass.run(input, {receivers, vertices});
-            refinement.add(batch, vertices);
+            refinement.add(batch, cameras, vertices);
             const bool finished = refinement.finish(camera_pass, input, {receivers, vertices}, sums,
                                                     [&] { return ++launches < max_launches; });
             return std::pair(finished, launches);

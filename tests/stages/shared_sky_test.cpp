@@ -122,7 +122,7 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
             const double green = irradiance_at(irradiance, i).y;
             light.direct[i] += green / search.seeds;
             light.direct_square[i] += green * green / search.seeds;
-            const double emitted = met[i].camera_light.y;
+            const double emitted = double{met[i].camera_light.y} + double{met[i].traced_direct.y};
             light.emitted[i] += emitted / search.seeds;
             light.emitted_square[i] += emitted * emitted / search.seeds;
         }

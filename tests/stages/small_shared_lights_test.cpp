@@ -21,7 +21,7 @@ using test::SmallLaunchesTest;
 Numbers emitted_by(const std::vector<CameraVertex>& vertices) {
     Numbers numbers;
     for (const CameraVertex& vertex : vertices) {
-        numbers.push_back(vertex.camera_light.y);
+        numbers.push_back(vertex.traced_direct.y);
     }
     return numbers;
 }
