@@ -48,12 +48,23 @@ void enlist(Helpers& helpers, const RenderRun& run, Session& session) {
     session.enlist(helpers.devices());
 }
 
+/// Whether a picture that is gone on with has splats is known, whatever its files get now.
+RenderOptions with_splats_of(const std::optional<CheckpointReader>& reader, RenderOptions options) {
+    if (reader && options.splat.empty()) {
+        const auto& settings = reader->facts().settings;
+        const auto found = settings.find("--splat");
+        options.splat = found != settings.end() && found->is_string() ? found->get<std::string>() : "";
+    }
+    return options;
+}
+
 /// Makes one picture, together with `helpers` if there are any.
-ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, const DeviceChoice& choice,
+ExitCode render_once(const RenderOptions& asked, const GlobalOptions& global, const DeviceChoice& choice,
                      Helpers* helpers) {
-    check_outputs(options.picture);
-    check_checkpoint(options.checkpoint, options.picture.outputs);
-    std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
+    check_outputs(asked.picture);
+    check_checkpoint(asked.checkpoint, asked.picture.outputs);
+    std::optional<CheckpointReader> reader = open_checkpoint(asked.checkpoint);
+    const RenderOptions options = with_splats_of(reader, asked);
     const Stopwatch total;
     RowSinks sinks(options);
     RenderRun run = get_ready(options, global, choice);

@@ -41,6 +41,14 @@ void add_sample(const FilmSamples& samples, const FilmLayout& layout, uint x, ui
 
 }  // namespace
 
+FilmSamples random_splat_samples(const FilmLayout& layout) {
+    FilmSamples samples = random_film_samples(layout);
+    for (CameraVertex& vertex : samples.vertices) {
+        vertex.filter_weight = 1.0f + 0.25f * vertex.film_x;
+    }
+    return samples;
+}
+
 SplattedLight expected_splatted_light(const FilmSamples& samples, const FilmLayout& layout,
                                       const Camera& camera, uint x, uint y) {
     SplattedLight light;

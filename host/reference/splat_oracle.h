@@ -10,6 +10,10 @@
 
 namespace nearlight::core {
 
+/// Samples with random numbers in every field, but with weights as the camera pass has them for splats: so
+/// those of a pixel do not add up to 0.
+FilmSamples random_splat_samples(const FilmLayout& layout);
+
 /// The light of a pixel, radiance.
 struct SplattedLight {
     double direct[3] = {};

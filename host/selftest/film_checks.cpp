@@ -101,7 +101,7 @@ void check_camera_lights(Device& device, CheckResult& result) {
 
 void check_splats(Device& device, CheckResult& result) {
     const FilmLayout layout{.width = 29, .height = 21, .samples = 4};
-    const FilmSamples samples = random_film_samples(layout);
+    const FilmSamples samples = random_splat_samples(layout);
     SceneCamera scene_camera;
     scene_camera.filter = default_filter(FilterKind::tent);
     Camera camera =

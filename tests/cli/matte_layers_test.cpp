@@ -67,14 +67,14 @@ TEST_F(MatteLayers, AreInTheHelpAndInTheReadme) {
     EXPECT_THAT(merge.errors, HasSubstr("unknown layer 'cryptomatte_object'"));
 }
 
-/// The samples of passes before a checkpoint count as well.
+/// The samples of passes before a checkpoint count as well, and decide that the picture has splats.
 TEST_F(MatteLayers, OfAResumedPictureAreThoseOfAnUninterruptedOne) {
     NEARLIGHT_NEEDS_DEVICE();
     const std::string checkpoint = " --checkpoint " + quoted(folder_ / "sums");
     ASSERT_EQ(render("--passes 1" + checkpoint, output_).exit_code, 0);
     ASSERT_EQ(render("--passes 3 --resume" + checkpoint + kLayers, output_).exit_code, 0);
     const std::filesystem::path whole_file = folder_ / "whole.exr";
-    ASSERT_EQ(render(std::string("--passes 3") + kLayers, whole_file).exit_code, 0);
+    ASSERT_EQ(render(std::string("--passes 3 --splat on") + kLayers, whole_file).exit_code, 0);
     const Image resumed = read_image(output_);
     const Image whole = read_image(whole_file);
     ASSERT_EQ(resumed.channels, whole.channels);

@@ -33,7 +33,7 @@ TEST(Selftest, EveryKernelPassesAndJsonSaysSo) {
                   "light cuts, BSDFs, direct light, paths of receivers, shared lights, shared sky, "
                   "shared veiled, shared reflections, light tracing, caustic walks, VPL contribution, "
                   "reverse VPLs, metropolis chains, local lights, camera pass, first surfaces, camera "
-                  "lights, film");
+                  "lights, film, splats");
     }
 }
 

@@ -146,6 +146,7 @@ class MattesOfPicture {
         settings.view.height = kMatteHeight;
         settings.sampling.vpl_count = 20;
         settings.gather.samples_per_pixel = 4;
+        settings.gather.splat = false;  // mattes have samples of each pixel's own
         settings.passes = 3;
         settings.seed = 7;
         RenderHooks hooks;

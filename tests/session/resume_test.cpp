@@ -15,8 +15,11 @@ using Moment = PassesSoFar::Moment;
 class Resume : public test::DeviceTest {};
 
 /// In a picture of several bands.
+/// Samples count in neighbouring rows, too, where a pass has enough of them.
 Scene tall_yard() {
-    return test::yard({70, 600, 20});
+    Scene scene = test::yard({70, 600, 20});
+    scene.camera.filter = default_filter(FilterKind::gaussian);
+    return scene;
 }
 
 test::Rendering render_from(Session& session, const RenderSettings& settings, PassStart start,

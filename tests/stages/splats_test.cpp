@@ -83,17 +83,8 @@ std::vector<RowSplat> splat(Device& device, const FilmSamples& samples, FilterKi
     return rows.download();
 }
 
-/// Weights as the camera pass has them, so that those of a filter with negative lobes do not add up to 0.
-FilmSamples weighted_samples() {
-    FilmSamples samples = random_film_samples(kSplatLayout);
-    for (CameraVertex& vertex : samples.vertices) {
-        vertex.filter_weight = 1.0f + 0.25f * vertex.film_x;
-    }
-    return samples;
-}
-
 TEST_F(SplatsTest, PixelsAreTheMeanOfAllSamplesThatTheirFilterReaches) {
-    const FilmSamples samples = weighted_samples();
+    const FilmSamples samples = random_splat_samples(kSplatLayout);
     on_each_device([&](Device& device) {
         for (const FilterKind filter : {FilterKind::tent, FilterKind::gaussian, FilterKind::mitchell}) {
             SCOPED_TRACE(to_string(filter));
@@ -117,7 +108,7 @@ TEST_F(SplatsTest, PixelsAreTheMeanOfAllSamplesThatTheirFilterReaches) {
 }
 
 TEST_F(SplatsTest, BatchesDoNotChangeABit) {
-    const FilmSamples samples = weighted_samples();
+    const FilmSamples samples = random_splat_samples(kSplatLayout);
     on_each_device([&](Device& device) {
         for (const bool apart : {false, true}) {
             const std::vector<RowSplat> whole = splat(device, samples, FilterKind::gaussian, {4}, apart);
@@ -130,7 +121,7 @@ TEST_F(SplatsTest, BatchesDoNotChangeABit) {
 }
 
 TEST_F(SplatsTest, CameraLightApartAddsUpToTheSameLight) {
-    const FilmSamples samples = weighted_samples();
+    const FilmSamples samples = random_splat_samples(kSplatLayout);
     on_each_device([&](Device& device) {
         const std::vector<RowSplat> together = splat(device, samples, FilterKind::tent, {4}, false);
         const std::vector<RowSplat> apart = splat(device, samples, FilterKind::tent, {1, 3}, true);
