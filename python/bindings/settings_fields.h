@@ -100,9 +100,10 @@ struct FieldsOf<GatherSettings> {
         Field{"rays_per_pixel", &GatherSettings::rays_per_pixel, "the number of these rays"},
         Field{"refine", &GatherSettings::refine,
               "whether edges of lamps and windows, of their images and of highlights get more camera paths"},
-        Field{"splat", &GatherSettings::splat,
-              "whether samples count in all pixels whose reconstruction filter reaches them; denoisers expect "
-              "that they do not"},
+        Field{
+            "splat", &GatherSettings::splat,
+            "whether samples count in all pixels whose reconstruction filter reaches them; denoisers expect "
+            "that they do not"},
         Field{"indirect_only", &GatherSettings::indirect_only,
               "leaves out the direct light of receivers, but not lights that are seen, mirrored or in "
               "highlights"},

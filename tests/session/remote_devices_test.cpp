@@ -53,7 +53,8 @@ class OtherSession {
     [[nodiscard]] RemoteDevices devices(std::size_t count) {
         RemoteDevices remote{
             .devices = {},
-            .show = [this](const PictureTask& picture, std::span<const Vpl> vpls) { return show(picture, vpls); },
+            .show = [this](const PictureTask& picture,
+                           std::span<const Vpl> vpls) { return show(picture, vpls); },
             .order =
                 [this](PictureNumber picture, std::size_t device, uint band) {
                     const std::lock_guard lock(mutex_);
