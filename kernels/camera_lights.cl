@@ -12,6 +12,7 @@
 // square of NEARLIGHT_TILE_SIZE pixels, so that no bit depends on how the picture is divided into bands. One
 // work-item for each pixel; any work-group size.
 
+#include "lib/film_light.cl"
 #include "lib/halves.cl"
 #include "lib/math.cl"
 #include "shared/camera_pass.h"
@@ -31,9 +32,7 @@ kernel void camera_lights_add(const global CameraVertex* restrict vertices, uint
     float3 halves[2] = {load3(lights[index].first), load3(lights[index].second)};
     for (uint sample = 0; sample < order.sample_count; ++sample) {
         for (uint branch = 0; branch < order.branch_count; ++branch) {
-            const uint packet = packet_at(order, place.column, place.row, sample, branch);
-            const global CameraVertex* vertex =
-                vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
+            const global CameraVertex* vertex = vertex_at(vertices, order, place, sample, branch);
             halves[first_sample + sample >= half_end] += vertex->filter_weight * load3(vertex->camera_light);
         }
     }

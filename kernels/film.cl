@@ -2,10 +2,10 @@
 // Film: adds the samples of a band to its pixels, and turns sums into the layers of the picture.
 //
 // One work-item for each pixel of the band; any work-group size. `sums` holds NEARLIGHT_FILM_CHANNELS floats
-// for each pixel, row by row. Where samples count in the pixels around theirs, too, splats.cl makes the
-// layers of light. Samples are added one after the other in their order, so that several batches give the
-// same bits as one. shared/film_layers.h is the table of layers: film_add has a line for each of them, and
-// film_resolve goes through the table.
+// for each pixel, row by row. Where samples count in the pixels around theirs, too, splats.cl has the
+// light and the coverage instead. Samples are added one after the other in their order, so that several
+// batches give the same bits as one. shared/film_layers.h is the table of layers: film_add has a line for
+// each of them, and film_resolve goes through the table.
 
 #include "lib/film_light.cl"
 #include "lib/halves.cl"

@@ -13,7 +13,6 @@
 
 #include "lib/film_light.cl"
 #include "lib/math.cl"
-#include "shared/packet_order.h"
 #include "shared/splats.h"
 
 #define MAX_SPLAT_COLUMNS (2 * NEARLIGHT_MAX_SPLAT_REACH + 1)
@@ -78,18 +77,12 @@ kernel void splats_add(const global CameraVertex* restrict vertices,
     const uint columns = splat_rows(camera->splat_reach);
     global Splat* own = splats + (size_t)index * columns * columns;
     for (uint sample = 0; sample < order.sample_count; ++sample) {
+        const global CameraVertex* first = vertex_at(vertices, order, place, sample, 0);
+        const SplatWeights weights = weights_of(camera, first);
         FilmLight light = {(float3)(0.0f), (float3)(0.0f)};
-        bool is_covered = false;
-        SplatWeights weights;
         for (uint branch = 0; branch < order.branch_count; ++branch) {
             const uint packet = packet_at(order, place.column, place.row, sample, branch);
-            const global CameraVertex* stored =
-                vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
-            if (branch == 0) {
-                weights = weights_of(camera, stored);
-                is_covered = stored->depth > 0.0f;
-            }
-            CameraVertex vertex = *stored;
+            CameraVertex vertex = vertices[(size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane];
             if (!with_camera_light) {
                 vertex.camera_light = store3((float3)(0.0f));
             }
@@ -101,8 +94,18 @@ kernel void splats_add(const global CameraVertex* restrict vertices,
         }
         for (uint i = 0; i < columns * columns; ++i) {
             const float weight = weights.x[i % columns] * weights.y[i / columns];
-            add_to_splat(own + i, &light, is_covered, weight, first_sample + sample < half_end);
+            add_to_splat(own + i, &light, first->depth > 0.0f, weight, first_sample + sample < half_end);
         }
+    }
+}
+
+static inline void add_to_camera_splat(global CameraSplat* splat, float3 light, float weight, bool in_first) {
+    if (in_first) {
+        splat->first = store3(load3(splat->first) + weight * light);
+        splat->first_weight += weight;
+    } else {
+        splat->second = store3(load3(splat->second) + weight * light);
+        splat->second_weight += weight;
     }
 }
 
@@ -120,26 +123,14 @@ kernel void splats_add_camera_light(const global CameraVertex* restrict vertices
     const uint columns = splat_rows(camera->splat_reach);
     global CameraSplat* own = splats + (size_t)index * columns * columns;
     for (uint sample = 0; sample < order.sample_count; ++sample) {
+        const SplatWeights weights = weights_of(camera, vertex_at(vertices, order, place, sample, 0));
         float3 light = (float3)(0.0f);
-        SplatWeights weights;
         for (uint branch = 0; branch < order.branch_count; ++branch) {
-            const uint packet = packet_at(order, place.column, place.row, sample, branch);
-            const global CameraVertex* vertex =
-                vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
-            if (branch == 0) {
-                weights = weights_of(camera, vertex);
-            }
-            light += load3(vertex->camera_light);
+            light += load3(vertex_at(vertices, order, place, sample, branch)->camera_light);
         }
         for (uint i = 0; i < columns * columns; ++i) {
             const float weight = weights.x[i % columns] * weights.y[i / columns];
-            if (first_sample + sample < half_end) {
-                own[i].first = store3(load3(own[i].first) + weight * light);
-                own[i].first_weight += weight;
-            } else {
-                own[i].second = store3(load3(own[i].second) + weight * light);
-                own[i].second_weight += weight;
-            }
+            add_to_camera_splat(own + i, light, weight, first_sample + sample < half_end);
         }
     }
 }

@@ -89,10 +89,11 @@ void add_refine_option(CLI::App& command, GatherSettings& gather) {
 
 void add_splat_option(CLI::App& command, std::string& splat) {
     command
-        .add_option("--splat", splat,
-                    "on: samples count in all pixels whose reconstruction filter reaches them, which takes "
-                    "half of the noise or more; off: in their own pixel alone, so that pixels have noise of "
-                    "their own, as denoisers expect (default: on, with --denoise or mattes off)")
+        .add_option(
+            "--splat", splat,
+            "on: samples count in all pixels whose reconstruction filter reaches them, which takes "
+            "half of the noise or more; off: in their own pixel alone, so that pixels have noise of "
+            "their own, as denoisers expect (default: on, but off with --denoise and with layers of mattes)")
         ->check(CLI::IsMember({"on", "off"}))
         ->type_name("on|off");
 }

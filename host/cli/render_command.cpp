@@ -48,23 +48,12 @@ void enlist(Helpers& helpers, const RenderRun& run, Session& session) {
     session.enlist(helpers.devices());
 }
 
-/// Whether a picture that is gone on with has splats is known, whatever its files get now.
-RenderOptions with_splats_of(const std::optional<CheckpointReader>& reader, RenderOptions options) {
-    if (reader && options.splat.empty()) {
-        const auto& settings = reader->facts().settings;
-        const auto found = settings.find("--splat");
-        options.splat = found != settings.end() && found->is_string() ? found->get<std::string>() : "";
-    }
-    return options;
-}
-
 /// Makes one picture, together with `helpers` if there are any.
-ExitCode render_once(const RenderOptions& asked, const GlobalOptions& global, const DeviceChoice& choice,
+ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, const DeviceChoice& choice,
                      Helpers* helpers) {
-    check_outputs(asked.picture);
-    check_checkpoint(asked.checkpoint, asked.picture.outputs);
-    std::optional<CheckpointReader> reader = open_checkpoint(asked.checkpoint);
-    const RenderOptions options = with_splats_of(reader, asked);
+    check_outputs(options.picture);
+    check_checkpoint(options.checkpoint, options.picture.outputs);
+    std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
     const Stopwatch total;
     RowSinks sinks(options);
     RenderRun run = get_ready(options, global, choice);
@@ -106,7 +95,22 @@ ExitCode render_with_ranks(const RenderOptions& options, const GlobalOptions& gl
     return render_once(options, global, choice, &helpers);
 }
 
-ExitCode run_render(const RenderOptions& options, const GlobalOptions& global) {
+/// A render that resumes keeps the splats of its first passes, even if --denoise or mattes are new. Every
+/// rank reads that from the checkpoint, so that all of them have the same settings.
+RenderOptions with_splats_of_checkpoint(RenderOptions options) {
+    std::error_code error;
+    if (options.splat.empty() && options.checkpoint.resumes &&
+        std::filesystem::exists(options.checkpoint.file, error)) {
+        const CheckpointReader reader(options.checkpoint.file);
+        const auto found = reader.facts().settings.find("--splat");
+        const bool is_known = found != reader.facts().settings.end() && found->is_string();
+        options.splat = is_known ? found->get<std::string>() : "";
+    }
+    return options;
+}
+
+ExitCode run_render(const RenderOptions& asked, const GlobalOptions& global) {
+    const RenderOptions options = with_splats_of_checkpoint(asked);
     check_variance_is_known(options.picture, settled(options));
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {

@@ -27,6 +27,10 @@ std::optional<std::pair<std::size_t, std::size_t>> shown_sample(const FilmSample
     return std::nullopt;
 }
 
+double channel(Vec3 v, std::size_t c) {
+    return c == 0 ? v.x : (c == 1 ? v.y : v.z);
+}
+
 /// The variance of the mean of `samples`, whose first half (without the middle one) and second half add up to
 /// the given numbers.
 double variance_of(double first, double second, uint samples) {
@@ -83,37 +87,59 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
     return samples;
 }
 
+FilmSamples batch_of_samples(const FilmSamples& samples, const FilmLayout& layout, uint first, uint count) {
+    FilmSamples batch;
+    for (std::size_t p = 0; p < samples.receivers.size(); ++p) {
+        const std::size_t sample = p / layout.branches % layout.samples;
+        if (sample >= first && sample < first + count) {
+            batch.receivers.push_back(samples.receivers[p]);
+            batch.direct.push_back(samples.direct[p]);
+            batch.gathered.push_back(samples.gathered[p]);
+            batch.indirect.push_back(samples.indirect[p]);
+            const auto from =
+                samples.vertices.begin() + static_cast<std::ptrdiff_t>(p * NEARLIGHT_PACKET_SIZE);
+            batch.vertices.insert(batch.vertices.end(), from, from + NEARLIGHT_PACKET_SIZE);
+        }
+    }
+    return batch;
+}
+
+BranchLight branch_light(const FilmSamples& samples, std::size_t packet, std::size_t lane) {
+    const CameraVertex& vertex = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
+    BranchLight light;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
+        const double response = channel(vertex.throughput, c) * channel(vertex.albedo, c) / kPi;
+        light.direct[c] = channel(vertex.camera_light, c) + channel(vertex.traced_direct, c) +
+                          response * (&samples.direct[packet].r[0])[at];
+        light.indirect[c] =
+            channel(vertex.traced_indirect, c) + response * (double{(&samples.gathered[packet].r[0])[at]} +
+                                                             double{(&samples.indirect[packet].r[0])[at]});
+    }
+    return light;
+}
+
 std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout& layout, uint x, uint y) {
     std::vector<double> out(NEARLIGHT_LAYER_CHANNELS, 0.0);
     double halves[2][3] = {};
     double normal[3] = {0, 0, 0};
-    const auto channel = [](Vec3 v, int c) {
-        return static_cast<double>(c == 0 ? v.x : (c == 1 ? v.y : v.z));
-    };
     for (uint s = 0; s < layout.samples * layout.branches; ++s) {
         const auto [packet, lane] = place_of(layout, x, y, s / layout.branches, s % layout.branches);
         const CameraVertex& vertex = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
         const ReceiverPacket& receiver = samples.receivers[packet];
+        const BranchLight light = branch_light(samples, packet, lane);
         for (std::size_t c = 0; c < 3; ++c) {
-            const int axis = static_cast<int>(c);
             const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
-            const double reflectance = channel(vertex.throughput, axis) * channel(vertex.albedo, axis);
-            const double weight = vertex.filter_weight;
-            const double direct =
-                weight * (channel(vertex.camera_light, axis) + channel(vertex.traced_direct, axis) +
-                          reflectance / kPi * (&samples.direct[packet].r[0])[at]);
-            const double indirect =
-                weight * (channel(vertex.traced_indirect, axis) +
-                          reflectance / kPi *
-                              (static_cast<double>((&samples.gathered[packet].r[0])[at]) +
-                               static_cast<double>((&samples.indirect[packet].r[0])[at])));
+            const double direct = double{vertex.filter_weight} * light.direct[c];
+            const double indirect = double{vertex.filter_weight} * light.indirect[c];
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
             out[NEARLIGHT_LAYER_INDIRECT + c] += indirect / layout.samples;
             out[NEARLIGHT_LAYER_BEAUTY + c] =
                 out[NEARLIGHT_LAYER_DIRECT + c] + out[NEARLIGHT_LAYER_INDIRECT + c];
             const bool is_in_second = s / layout.branches >= layout.samples / 2;
             halves[is_in_second ? 1 : 0][c] += direct + indirect;
-            out[NEARLIGHT_LAYER_ALBEDO + c] += reflectance / layout.samples;
+            out[NEARLIGHT_LAYER_ALBEDO + c] +=
+                channel(vertex.throughput, c) * channel(vertex.albedo, c) / layout.samples;
             normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
         }
         if (s % layout.branches == 0) {

@@ -40,6 +40,16 @@ struct FilmSamples {
 std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, uint y, uint sample,
                                              uint branch);
 
+/// The samples `first` to `first` + `count` of each pixel, as a batch has them.
+FilmSamples batch_of_samples(const FilmSamples& samples, const FilmLayout& layout, uint first, uint count);
+
+/// The light that a branch of a sample sends to the camera, radiance.
+struct BranchLight {
+    double direct[3] = {};
+    double indirect[3] = {};
+};
+BranchLight branch_light(const FilmSamples& samples, std::size_t packet, std::size_t lane);
+
 /// Samples with random numbers in every field. Some camera rays meet nothing.
 FilmSamples random_film_samples(const FilmLayout& layout);
 

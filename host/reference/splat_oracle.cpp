@@ -26,15 +26,10 @@ void add_sample(const FilmSamples& samples, const FilmLayout& layout, uint x, ui
                 double weight, double (&direct)[3], double (&indirect)[3]) {
     for (uint branch = 0; branch < layout.branches; ++branch) {
         const auto [packet, lane] = place_of(layout, x, y, sample, branch);
-        const CameraVertex& vertex = samples.vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
+        const BranchLight light = branch_light(samples, packet, lane);
         for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
-            const double response = rgb_of(vertex.throughput)[c] * rgb_of(vertex.albedo)[c] / kPi;
-            direct[c] += weight * (rgb_of(vertex.camera_light)[c] + rgb_of(vertex.traced_direct)[c] +
-                                   response * (&samples.direct[packet].r[0])[at]);
-            indirect[c] += weight * (rgb_of(vertex.traced_indirect)[c] +
-                                     response * (double{(&samples.gathered[packet].r[0])[at]} +
-                                                 double{(&samples.indirect[packet].r[0])[at]}));
+            direct[c] += weight * light.direct[c];
+            indirect[c] += weight * light.indirect[c];
         }
     }
 }

@@ -128,6 +128,7 @@ void check_film(Device& device, CheckResult& result);
 /// A case is a half of the light that the camera paths of a pixel bring, the rounds of further paths that the
 /// pixel gets, or its light after one of them.
 void check_camera_lights(Device& device, CheckResult& result);
+/// A case is a channel of the light of a pixel, direct or indirect, or its coverage.
 void check_splats(Device& device, CheckResult& result);
 
 }  // namespace nearlight::core

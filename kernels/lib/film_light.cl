@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that one branch of a camera sample brings to its pixel.
+// The samples of a pixel, and the light that one branch of a sample brings to it.
 #ifndef NEARLIGHT_LIB_FILM_LIGHT
 #define NEARLIGHT_LIB_FILM_LIGHT
 
 #include "lib/math.cl"
+#include "shared/packet_order.h"
 #include "shared/types.h"
+
+/// What the camera pass wrote for a branch of a sample of the pixel at a place.
+static inline const global CameraVertex* vertex_at(const global CameraVertex* vertices, PacketOrder order,
+                                                   PixelPlace place, uint sample, uint branch) {
+    const uint packet = packet_at(order, place.column, place.row, sample, branch);
+    return vertices + (size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane;
+}
 
 static inline float3 irradiance_of(const global IrradiancePacket* packet, uint lane) {
     return (float3)(packet->r[lane], packet->g[lane], packet->b[lane]);

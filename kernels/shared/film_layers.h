@@ -15,6 +15,8 @@
 //     light      the sum of the layers direct and indirect, for which nothing is added up separately;
 //     spread     the variance of the pixel's light, judged by how far apart the means of the first and of the
 //                second half of the samples lie; 0 for a single sample.
+//   Where samples count in the pixels around theirs, too, beauty, direct, indirect, variance and A are means
+//   over all samples that reach the pixel, with the filter's weights (host/session/splat_rows.h).
 //   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first,
 //              and `variance` is the variance of the mean, judged by the passes' own variances and by how
 //              far apart the passes lie (host/session/pass_average.h).

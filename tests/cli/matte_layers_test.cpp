@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <bit>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"
@@ -65,6 +66,20 @@ TEST_F(MatteLayers, AreInTheHelpAndInTheReadme) {
     const ProgramResult merge = run_program("merge --layers cryptomatte_object x.sums -o " + quoted(output_));
     EXPECT_EQ(merge.exit_code, 2);
     EXPECT_THAT(merge.errors, HasSubstr("unknown layer 'cryptomatte_object'"));
+}
+
+/// Mattes have samples of each pixel's own, and so has their picture unless the user wants splats.
+TEST_F(MatteLayers, DecideWhetherThePictureHasSplats) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const auto has_splats = [&](const std::string& options) {
+        const ProgramResult result = render("--json " + options, output_);
+        EXPECT_EQ(result.exit_code, 0) << result.errors;
+        return nlohmann::json::parse(result.output)["splat"].get<bool>();
+    };
+    EXPECT_TRUE(has_splats(""));
+    EXPECT_FALSE(has_splats(kLayers));
+    EXPECT_TRUE(has_splats(std::string("--splat on") + kLayers));
+    EXPECT_FALSE(has_splats("--splat off"));
 }
 
 /// The samples of passes before a checkpoint count as well, and decide that the picture has splats.

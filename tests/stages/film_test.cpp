@@ -20,19 +20,7 @@ std::vector<float> develop(Device& device, const FilmSamples& samples, const std
     sums.fill_zero();
     uint first = 0;
     for (const uint count : batches) {
-        FilmSamples batch;
-        for (std::size_t p = 0; p < samples.receivers.size(); ++p) {
-            const std::size_t sample = p / kLayout.branches % kLayout.samples;
-            if (sample >= first && sample < first + count) {
-                batch.receivers.push_back(samples.receivers[p]);
-                batch.direct.push_back(samples.direct[p]);
-                batch.gathered.push_back(samples.gathered[p]);
-                batch.indirect.push_back(samples.indirect[p]);
-                const auto from =
-                    samples.vertices.begin() + static_cast<std::ptrdiff_t>(p * NEARLIGHT_PACKET_SIZE);
-                batch.vertices.insert(batch.vertices.end(), from, from + NEARLIGHT_PACKET_SIZE);
-            }
-        }
+        const FilmSamples batch = batch_of_samples(samples, kLayout, first, count);
         const Buffer<ReceiverPacket> receivers(device, batch.receivers);
         const Buffer<CameraVertex> vertices(device, batch.vertices);
         const Buffer<IrradiancePacket> direct(device, batch.direct);

@@ -24,23 +24,6 @@ Camera camera_with(FilterKind kind) {
     return result;
 }
 
-/// The samples `first` to `first` + `count` of each pixel.
-FilmSamples some_samples(const FilmSamples& samples, uint first, uint count) {
-    FilmSamples some;
-    for (std::size_t p = 0; p < samples.receivers.size(); ++p) {
-        const std::size_t sample = p / kSplatLayout.branches % kSplatLayout.samples;
-        if (sample >= first && sample < first + count) {
-            some.direct.push_back(samples.direct[p]);
-            some.gathered.push_back(samples.gathered[p]);
-            some.indirect.push_back(samples.indirect[p]);
-            const auto from =
-                samples.vertices.begin() + static_cast<std::ptrdiff_t>(p * NEARLIGHT_PACKET_SIZE);
-            some.vertices.insert(some.vertices.end(), from, from + NEARLIGHT_PACKET_SIZE);
-        }
-    }
-    return some;
-}
-
 CameraBatch batch_of(uint first, uint count) {
     return {.tile_row_count = static_cast<uint>(kSplatLayout.tile_rows()),
             .first_sample = first,
@@ -65,7 +48,7 @@ std::vector<RowSplat> splat(Device& device, const FilmSamples& samples, FilterKi
     Splats stage(device);
     uint first = 0;
     for (const uint count : batches) {
-        const FilmSamples some = some_samples(samples, first, count);
+        const FilmSamples some = batch_of_samples(samples, kSplatLayout, first, count);
         const Buffer<CameraVertex> vertices(device, some.vertices);
         const Buffer<IrradiancePacket> direct(device, some.direct);
         const Buffer<IrradiancePacket> gathered(device, some.gathered);
