@@ -55,6 +55,9 @@ const char* kind_of(const Scene& scene, const Material& material) {
     switch (material.model) {
         case NEARLIGHT_BSDF_PLASTIC:
             return "coated";
+        case NEARLIGHT_BSDF_PHONG:
+        case NEARLIGHT_BSDF_WARD:
+            return "glossy";
         case NEARLIGHT_BSDF_CONDUCTOR:
             return "metal";
         case NEARLIGHT_BSDF_DIELECTRIC:
@@ -311,8 +314,8 @@ MemoryEstimate estimate_memory(const Scene& scene) {
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    for (const char* kind :
-         {"diffuse", "coated", "metal", "glass", "thin glass", "principled", "blend", "invisible"}) {
+    for (const char* kind : {"diffuse", "coated", "glossy", "metal", "glass", "thin glass", "principled",
+                             "blend", "invisible"}) {
         const auto count = std::count_if(
             scene.materials.begin(), scene.materials.end(),
             [&](const Material& material) { return std::string_view(kind_of(scene, material)) == kind; });

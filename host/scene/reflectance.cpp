@@ -64,11 +64,16 @@ struct Point {
     }
 };
 
+/// Whether the material is Lambertian with a lobe of gloss beside it, which takes nothing from it.
+bool has_lobe_beside_base(const Material& m) {
+    return m.model == NEARLIGHT_BSDF_PHONG || m.model == NEARLIGHT_BSDF_WARD;
+}
+
 /// The colour of D below its curve.
 Vec3 base_color(const Point& at) {
     const Material& m = at.material;
     const Vec3 rho = at.color(m.reflectance);
-    if (m.model == NEARLIGHT_BSDF_DIFFUSE) {
+    if (m.model == NEARLIGHT_BSDF_DIFFUSE || has_lobe_beside_base(m)) {
         return rho;
     }
     if (m.model == NEARLIGHT_BSDF_PRINCIPLED) {
@@ -106,6 +111,10 @@ Vec3 total_reflectance(const Point& at) {
             return base_albedo(at) + at.color(m.specular) * (1.0f - mean_transmission(at.scene, m.curve));
         case NEARLIGHT_BSDF_CONDUCTOR:
             return at.color(m.specular) * mean_metal(m);
+        case NEARLIGHT_BSDF_PHONG:  // a narrow lobe reflects the cosine of its direction
+            return base_albedo(at) + at.color(m.specular) * (2.0f / 3.0f);
+        case NEARLIGHT_BSDF_WARD:
+            return base_albedo(at) + at.color(m.specular);
         case NEARLIGHT_BSDF_DIELECTRIC:
         case NEARLIGHT_BSDF_THIN_DIELECTRIC: {
             const auto reflected = static_cast<float>(
@@ -145,7 +154,7 @@ Vec3 mean_reflectance(const Scene& scene, const Material& material, float u, flo
 bool has_diffuse(const Scene& scene, const Material& material) {
     return any_of_tree(scene, material, [](const Material& m) {
         return m.model == NEARLIGHT_BSDF_DIFFUSE || m.model == NEARLIGHT_BSDF_PLASTIC ||
-               m.model == NEARLIGHT_BSDF_PRINCIPLED;
+               m.model == NEARLIGHT_BSDF_PRINCIPLED || has_lobe_beside_base(m);
     });
 }
 
@@ -159,7 +168,7 @@ bool has_rough_gloss(const Scene& scene, const Material& material) {
     return any_of_tree(scene, material, [](const Material& m) {
         const bool is_coat_or_metal =
             m.model == NEARLIGHT_BSDF_PLASTIC || m.model == NEARLIGHT_BSDF_CONDUCTOR;
-        return m.model == NEARLIGHT_BSDF_PRINCIPLED ||
+        return m.model == NEARLIGHT_BSDF_PRINCIPLED || has_lobe_beside_base(m) ||
                (is_coat_or_metal && max_component(m.roughness.value) >= NEARLIGHT_MIN_ALPHA);
     });
 }

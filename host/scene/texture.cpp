@@ -79,6 +79,34 @@ Vec3 mean_color(const TextureImage& image, const Texture& texture) {
             static_cast<float>(sum[2] * scale)};
 }
 
+Vec3 max_color(const TextureImage& image, const Texture& texture) {
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    Vec3 largest{0, 0, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+        largest = max(largest, cut_off(texel_color(image, i), texture));
+    }
+    return largest;
+}
+
+/// A parameter's value times what `of_checkerboard` makes of two fields or `of_image` of a bitmap.
+template <typename OfCheckerboard, typename OfImage>
+Vec3 summary(const Scene& scene, const Parameter& parameter, const OfCheckerboard& of_checkerboard,
+             const OfImage& of_image) {
+    if (parameter.texture < 0) {
+        return parameter.value;
+    }
+    const SceneTexture& texture = scene.textures[static_cast<std::size_t>(parameter.texture)];
+    const Texture& p = texture.parameters;
+    switch (p.kind) {
+        case NEARLIGHT_TEXTURE_CHECKERBOARD:
+            return parameter.value * of_checkerboard(p.color0, p.color1);
+        case NEARLIGHT_TEXTURE_VERTEX_COLOR:
+            return parameter.value;
+        default:
+            return parameter.value * of_image(scene.images[static_cast<std::size_t>(texture.image)], p);
+    }
+}
+
 }  // namespace
 
 const std::array<float, 256>& srgb_decode_table() {
@@ -152,17 +180,17 @@ float parameter_number(const Scene& scene, const Parameter& parameter, float u, 
 }
 
 Vec3 mean_value(const Scene& scene, const Parameter& parameter) {
-    if (parameter.texture < 0) {
-        return parameter.value;
-    }
-    const SceneTexture& texture = scene.textures[static_cast<std::size_t>(parameter.texture)];
-    const Texture& p = texture.parameters;
-    if (p.kind == NEARLIGHT_TEXTURE_CHECKERBOARD) {
-        return parameter.value * ((mean_value(scene, p.color0) + mean_value(scene, p.color1)) * 0.5f);
-    }
-    return p.kind == NEARLIGHT_TEXTURE_VERTEX_COLOR
-               ? parameter.value
-               : parameter.value * mean_color(scene.images[static_cast<std::size_t>(texture.image)], p);
+    const auto mean_of_fields = [&](const Parameter& a, const Parameter& b) {
+        return (mean_value(scene, a) + mean_value(scene, b)) * 0.5f;
+    };
+    return summary(scene, parameter, mean_of_fields, mean_color);
+}
+
+Vec3 max_value(const Scene& scene, const Parameter& parameter) {
+    const auto max_of_fields = [&](const Parameter& a, const Parameter& b) {
+        return max(max_value(scene, a), max_value(scene, b));
+    };
+    return summary(scene, parameter, max_of_fields, max_color);
 }
 
 }  // namespace nearlight::core

@@ -39,6 +39,8 @@ std::vector<std::function<Material(Scene&)>> rough_materials() {
         [=](Scene&) { return rough(dielectric_material(1.5), alpha, 0); },
         [=](Scene& scene) { return plastic_material(scene, {.alpha = 0}); },
         [=](Scene& scene) { return plastic_material(scene, {.alpha = 0.3, .nonlinear = true}); },
+        [=](Scene&) { return rough(plain_material(NEARLIGHT_BSDF_PHONG), alpha, 0); },
+        [=](Scene&) { return rough(plain_material(NEARLIGHT_BSDF_WARD), alpha, 0); },
         [=](Scene& scene) {
             Material material = principled_material(scene, 1.5);
             material.metallic = parameter_of(0.3f);

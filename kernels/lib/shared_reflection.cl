@@ -14,6 +14,10 @@ static inline float gloss_width(const Bsdf* bsdf) {
         case NEARLIGHT_BSDF_PLASTIC:
         case NEARLIGHT_BSDF_CONDUCTOR:
             return is_smooth(bsdf) ? 0.0f : fmin(bsdf->alpha.x, bsdf->alpha.y);
+        case NEARLIGHT_BSDF_PHONG:
+            return bsdf->alpha.x;
+        case NEARLIGHT_BSDF_WARD:
+            return fmin(bsdf->alpha.x, bsdf->alpha.y);
         case NEARLIGHT_BSDF_PRINCIPLED: {
             if (is_thin(bsdf) || bsdf->spec_trans > 0.0f || !bsdf->front) {
                 return 0.0f;

@@ -90,6 +90,15 @@ inline std::vector<BsdfCase> opaque_cases() {
     add("anisotropic conductor GGX", [&](Scene&) { return rough(gold(), 0.2f, 0.6f); });
     add("rough conductor Beckmann", [&](Scene&) { return rough(gold(), 0.3f, 0.3f, true); });
     add("anisotropic conductor Beckmann", [&](Scene&) { return rough(gold(), 0.5f, 0.2f, true); });
+    const auto lobe = [&](uint model) {
+        Material material = colored(plain_material(model), red * 0.5f);
+        material.specular = parameter_of(Vec3{0.4f, 0.5f, 0.6f});
+        return material;
+    };
+    add("Phong wide", [&](Scene&) { return rough(lobe(NEARLIGHT_BSDF_PHONG), 0.8f, 0.8f); });
+    add("Phong narrow", [&](Scene&) { return rough(lobe(NEARLIGHT_BSDF_PHONG), 0.2f, 0.2f); });
+    add("Ward", [&](Scene&) { return rough(lobe(NEARLIGHT_BSDF_WARD), 0.3f, 0.3f); });
+    add("anisotropic Ward", [&](Scene&) { return rough(lobe(NEARLIGHT_BSDF_WARD), 0.2f, 0.5f); });
     return cases;
 }
 

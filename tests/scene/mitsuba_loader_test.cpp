@@ -263,7 +263,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
     files.write("broken.obj", "v 0 0 0\nf 1 2 3\n");
     const std::pair<const char*, const char*> cases[] = {
         {"<shape type='blob'/>", "unknown shape 'blob'; known ones are obj"},
-        {"<bsdf type='phong' id='p'/><shape type='cube'><ref id='p'/></shape>", "unknown bsdf 'phong'"},
+        {"<bsdf type='hk' id='p'/><shape type='cube'><ref id='p'/></shape>", "unknown bsdf 'hk'"},
         {"<emitter type='collimated'/>", "unknown emitter"},
         {"<sensor type='fisheye'/>", "unknown sensor"},
         {"<shape type='cube'><ref id='nobody'/></shape>", "nothing has the id 'nobody'"},

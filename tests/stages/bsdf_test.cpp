@@ -113,7 +113,8 @@ double chi2_deviation(const Cells& cells, const Drawn& drawn, double error = 0) 
 
 /// Whether a viewer behind the surface sees nothing.
 bool is_opaque(const Material& material) {
-    return material.model <= NEARLIGHT_BSDF_CONDUCTOR;
+    return material.model <= NEARLIGHT_BSDF_CONDUCTOR || material.model == NEARLIGHT_BSDF_PHONG ||
+           material.model == NEARLIGHT_BSDF_WARD;
 }
 
 bool has_diffuse_part(const Material& material) {
@@ -285,6 +286,32 @@ TEST_F(BsdfTest, AlbedoIsNearTheIntegral) {
                 EXPECT_NEAR(albedo, exact, material.roughness.value.x == 0 ? 0.03 : 0.3);
             }
         }
+    });
+}
+
+/// Peaks and one more value of the lobes beside a Lambertian base, for a viewer at 60°.
+TEST_F(BsdfTest, LobesBesideABaseAreTheirFormulas) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        const float sine = std::sqrt(0.75f);
+        const Vec3 wo{sine, 0, 0.5f};
+        const Vec3 mirrored{-sine, 0, 0.5f};
+        const Vec3 up{0, 0, 1};
+        const auto expect = [&](const Material& material, Vec3 from, Vec3 to, double lobe) {
+            const BsdfAnswer answer = probe.ask(scene_of(material), make_query(from, to, kPartS));
+            EXPECT_NEAR(answer.value.x, 0.3 * lobe * to.z, 2e-5 * (1.0 + lobe));
+        };
+        // The exponent 48 and the exponent 0.
+        const Material narrow = make_lobe(NEARLIGHT_BSDF_PHONG, 0.2f, 0.2f);
+        expect(narrow, wo, mirrored, 50 / (2 * std::numbers::pi));
+        expect(narrow, wo, up, 50 / (2 * std::numbers::pi) * std::pow(0.5, 48));
+        expect(make_lobe(NEARLIGHT_BSDF_PHONG, 1, 1), wo, up, 2 / (2 * std::numbers::pi));
+        // The half vector is the normal, where the exponential is 1, and then lies at 30° to it along x.
+        const Material ward = make_lobe(NEARLIGHT_BSDF_WARD, 0.4f, 0.2f);
+        const double scale = 1 / (4 * std::numbers::pi * 0.4 * 0.2);
+        expect(ward, up, up, scale);
+        expect(ward, wo, mirrored, scale / 0.25);
+        expect(ward, wo, up, scale * std::exp(-1 / 3.0 / 0.16) / std::pow(0.75, 3));
     });
 }
 

@@ -65,6 +65,15 @@ inline Material make_plastic(float alpha, uint flags) {
     return material;
 }
 
+/// A Lambertian base with a lobe of gloss beside it.
+inline Material make_lobe(uint model, float alpha_x, float alpha_y) {
+    Material material = make_material(model);
+    material.roughness = constant(Vec3{alpha_x, alpha_y, 0});
+    material.reflectance = constant(Vec3{0.5f, 0.3f, 0.2f});
+    material.specular = constant(Vec3{0.3f, 0.4f, 0.5f});
+    return material;
+}
+
 inline Material make_principled(uint flags) {
     Material material = make_material(NEARLIGHT_BSDF_PRINCIPLED);
     material.flags = flags;
@@ -103,6 +112,11 @@ inline std::map<std::string, Material> make_materials() {
     materials["plastic"] = make_plastic(0, 0);
     materials["plastic_nonlinear"] = make_plastic(0, NEARLIGHT_MATERIAL_NONLINEAR);
     materials["rough_plastic"] = make_plastic(0.3f, 0);
+    for (const float alpha : {0.05f, 0.4f, 1.0f}) {
+        materials["phong " + std::to_string(alpha)] = make_lobe(NEARLIGHT_BSDF_PHONG, alpha, alpha);
+    }
+    materials["ward"] = make_lobe(NEARLIGHT_BSDF_WARD, 0.3f, 0.3f);
+    materials["ward anisotropic"] = make_lobe(NEARLIGHT_BSDF_WARD, 0.1f, 0.4f);
     materials["principled"] = make_principled(0);
     materials["principled_thin"] = make_principled(NEARLIGHT_MATERIAL_THIN);
     for (const float alpha : {0.1f, 0.3f, 1.0f}) {

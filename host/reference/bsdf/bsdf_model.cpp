@@ -33,6 +33,10 @@ const SpecularModel* specular_model(const BsdfParameters& parameters) {
             return parameters.thin ? &kPrincipledThinModel : &kPrincipledModel;
         case NEARLIGHT_BSDF_NULL:
             return &kNullModel;
+        case NEARLIGHT_BSDF_PHONG:
+            return &kPhongModel;
+        case NEARLIGHT_BSDF_WARD:
+            return &kWardModel;
         default:
             return nullptr;
     }

@@ -65,6 +65,8 @@ extern const SpecularModel kThinDielectricModel;
 extern const SpecularModel kPrincipledModel;
 extern const SpecularModel kPrincipledThinModel;
 extern const SpecularModel kNullModel;
+extern const SpecularModel kPhongModel;
+extern const SpecularModel kWardModel;
 
 /// S of a model, or null for a model that is D alone.
 const SpecularModel* specular_model(const BsdfParameters& parameters);

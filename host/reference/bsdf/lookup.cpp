@@ -131,7 +131,8 @@ BsdfParameters bsdf_parameters(const Scene& scene, const Surface& surface, const
     if (is_body && !front && !p.thin) {
         p.eta.x = 1 / p.eta.x;
     }
-    if (p.model == NEARLIGHT_BSDF_DIFFUSE) {
+    if (p.model == NEARLIGHT_BSDF_DIFFUSE || p.model == NEARLIGHT_BSDF_PHONG ||
+        p.model == NEARLIGHT_BSDF_WARD) {
         p.diffuse = at.color(material.reflectance);
     } else if (p.model == NEARLIGHT_BSDF_PLASTIC) {
         p.diffuse = coated_base(at.color(material.reflectance), material);

@@ -39,6 +39,12 @@ std::optional<Material> SurfaceModels::make(const Object& bsdf) {
     if (type == "principled" || type == "principledthin") {
         return make_principled(bsdf);
     }
+    if (type == "phong") {
+        return make_phong(bsdf);
+    }
+    if (type == "ward") {
+        return make_ward(bsdf);
+    }
     return std::nullopt;
 }
 
@@ -121,15 +127,20 @@ void SurfaceModels::read_microfacets(const Object& bsdf, Material& material) {
     }
     material.flags |= distribution == "ggx" ? 0u : NEARLIGHT_MATERIAL_BECKMANN;
     bsdf.ignore({"sample_visible"});
+    read_roughness(bsdf, material);
+    const Vec3 alpha = material.roughness.value;
+    if (std::min(alpha.x, alpha.y) <= 0.0f) {
+        notes_.remark(*bsdf.where.file, bsdf.where.line, "a roughness of 0 makes a smooth surface");
+    }
+}
+
+void SurfaceModels::read_roughness(const Object& bsdf, Material& material) {
     const bool has_two = bsdf.has("alpha_u") || bsdf.has("alpha_v") || bsdf.texture("alpha_u") != nullptr ||
                          bsdf.texture("alpha_v") != nullptr;
     material.roughness = has_two ? anisotropic_alpha(bsdf) : textures_.number(bsdf, "alpha", 0.1f);
     const Vec3 alpha = material.roughness.value;
     if (alpha.x != alpha.y || holds_two_numbers(scene_, material.roughness)) {
         material.flags |= NEARLIGHT_MATERIAL_TANGENT;
-    }
-    if (std::min(alpha.x, alpha.y) <= 0.0f) {
-        notes_.remark(*bsdf.where.file, bsdf.where.line, "a roughness of 0 makes a smooth surface");
     }
 }
 
@@ -246,6 +257,49 @@ Material SurfaceModels::make_principled(const Object& bsdf) {
         material.metallic = number("metallic");
         material.clearcoat = number("clearcoat");
         material.clearcoat_gloss = number("clearcoat_gloss");
+    }
+    return material;
+}
+
+void SurfaceModels::read_base_and_lobe(const Object& bsdf, Material& material) {
+    material.reflectance = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
+    material.specular = textures_.reflectance(bsdf, "specular_reflectance", {0.2f, 0.2f, 0.2f});
+    // As in Mitsuba 0.6, both are scaled so that they reflect no more than arrives in any place.
+    const float sum =
+        max_component(max_value(scene_, material.reflectance) + max_value(scene_, material.specular));
+    if (sum > 1.0f) {
+        notes_.remark(*bsdf.where.file, bsdf.where.line,
+                      "diffuse and specular reflectance together exceed 1 and are scaled down");
+        material.reflectance.value = material.reflectance.value / sum;
+        material.specular.value = material.specular.value / sum;
+    }
+}
+
+// A power n of the cosine becomes the roughness √(2/(n + 2)).
+Material SurfaceModels::make_phong(const Object& bsdf) {
+    constexpr float kMaxExponent = 1e6f;
+    Material material = plain_material(NEARLIGHT_BSDF_PHONG);
+    read_base_and_lobe(bsdf, material);
+    const Parameter exponent = textures_.number(bsdf, "exponent", 30.0f, {0.0f, kMaxExponent});
+    if (exponent.texture >= 0) {
+        note(notes_, bsdf.where, "a texture for 'exponent' of 'phong' is replaced by its mean");
+    }
+    const float n = std::clamp(luminance(mean_value(scene_, exponent)), 0.0f, kMaxExponent);
+    material.roughness = parameter_of(std::sqrt(2.0f / (n + 2.0f)));
+    return material;
+}
+
+Material SurfaceModels::make_ward(const Object& bsdf) {
+    Material material = plain_material(NEARLIGHT_BSDF_WARD);
+    read_base_and_lobe(bsdf, material);
+    read_roughness(bsdf, material);
+    const std::string variant = lower_case(bsdf.string("variant", "balanced"));
+    if (variant == "ward" || variant == "ward-duer") {
+        note(notes_, bsdf.where,
+             "the variant '" + variant +
+                 "' of 'ward' is replaced by 'balanced', which is darker at grazing angles");
+    } else if (variant != "balanced") {
+        fail(bsdf.where, "unknown variant '" + variant + "' of 'ward'; known are balanced, ward, ward-duer");
     }
     return material;
 }

@@ -15,8 +15,7 @@ class SurfaceModels {
   public:
     static constexpr const char* kNames =
         "diffuse, roughdiffuse, plastic, roughplastic, conductor, roughconductor, dielectric, "
-        "thindielectric, "
-        "roughdielectric, principled, principledthin";
+        "thindielectric, roughdielectric, principled, principledthin, phong, ward";
 
     SurfaceModels(Scene& scene, NoteSink& notes, TextureMaker& textures)
         : scene_(scene), notes_(notes), textures_(textures) {}
@@ -31,12 +30,18 @@ class SurfaceModels {
     Material make_conductor(const Object& bsdf);
     Material make_glass(const Object& bsdf);
     Material make_principled(const Object& bsdf);
+    Material make_phong(const Object& bsdf);
+    Material make_ward(const Object& bsdf);
+    /// The two colours of Mitsuba 0.6's `phong` and `ward`.
+    void read_base_and_lobe(const Object& bsdf, Material& material);
     void read_metal(const Object& bsdf, Material& material);
     double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
     double index_ratio(const Object& bsdf, double interior);
     double principled_index(const Object& bsdf, bool transmits);
     /// The roughness of a `rough…` BSDF, and flags of its microfacets.
     void read_microfacets(const Object& bsdf, Material& material);
+    /// The roughness from `alpha_u` and `alpha_v`, or from `alpha`.
+    void read_roughness(const Object& bsdf, Material& material);
     Parameter anisotropic_alpha(const Object& bsdf);
 
     Scene& scene_;

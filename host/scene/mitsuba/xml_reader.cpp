@@ -131,9 +131,13 @@ class Reader {
         } else {
             Property property{read_value(file, element, tag), element.where};
             const std::string name = snake_case(element.required("name"));
-            if (!parent.properties.emplace(name, std::move(property)).second) {
-                fail(element.where, "property '" + name + "' is given twice");
+            if (parent.properties.contains(name)) {
+                if (!element.is_old()) {
+                    fail(element.where, "property '" + name + "' is given twice");
+                }
+                note(notes_, element.where, "property '" + name + "' is given twice; this one counts");
             }
+            parent.properties.insert_or_assign(name, std::move(property));
         }
     }
 

@@ -6,10 +6,12 @@
 #include "lib/bsdf/conductor.cl"
 #include "lib/bsdf/dielectric.cl"
 #include "lib/bsdf/null.cl"
+#include "lib/bsdf/phong.cl"
 #include "lib/bsdf/plastic.cl"
 #include "lib/bsdf/principled.cl"
 #include "lib/bsdf/surface.cl"
 #include "lib/bsdf/thin_dielectric.cl"
+#include "lib/bsdf/ward.cl"
 #include "lib/curve.cl"
 #include "lib/outlined.cl"
 #include "lib/sampling.cl"
@@ -26,8 +28,12 @@ static inline bool is_delta_only(const Bsdf* bsdf) {
         case NEARLIGHT_BSDF_CONDUCTOR:
         case NEARLIGHT_BSDF_DIELECTRIC:
             return is_smooth(bsdf);
+        case NEARLIGHT_BSDF_PRINCIPLED:
+        case NEARLIGHT_BSDF_PHONG:
+        case NEARLIGHT_BSDF_WARD:
+            return false;
         default:
-            return bsdf->model != NEARLIGHT_BSDF_PRINCIPLED;
+            return true;
     }
 }
 
@@ -54,6 +60,10 @@ static inline float3 s_eval(const Bsdf* bsdf, float3 wo, float3 wi, float* pdf) 
             return conductor_eval(bsdf, wo, wi, pdf);
         case NEARLIGHT_BSDF_DIELECTRIC:
             return dielectric_eval(bsdf, wo, wi, pdf);
+        case NEARLIGHT_BSDF_PHONG:
+            return phong_eval(bsdf, wo, wi, pdf);
+        case NEARLIGHT_BSDF_WARD:
+            return ward_eval(bsdf, wo, wi, pdf);
         default:
             return principled_eval(bsdf, wo, wi, pdf);
     }
@@ -74,6 +84,10 @@ static inline BsdfSample s_sample(const Bsdf* bsdf, float3 wo, float u, float2 v
             return thin_dielectric_sample(bsdf, wo, u);
         case NEARLIGHT_BSDF_PRINCIPLED:
             return principled_sample(bsdf, wo, u, v);
+        case NEARLIGHT_BSDF_PHONG:
+            return phong_sample(bsdf, wo, v);
+        case NEARLIGHT_BSDF_WARD:
+            return ward_sample(bsdf, wo, v);
         case NEARLIGHT_BSDF_NULL:
             return null_sample(wo);
         default:
@@ -94,6 +108,10 @@ static inline float3 s_albedo(const Bsdf* bsdf, float3 wo) {
             return thin_dielectric_albedo(bsdf, wo);
         case NEARLIGHT_BSDF_PRINCIPLED:
             return principled_albedo(bsdf, wo);
+        case NEARLIGHT_BSDF_PHONG:
+            return phong_albedo(bsdf, wo);
+        case NEARLIGHT_BSDF_WARD:
+            return ward_albedo(bsdf);
         case NEARLIGHT_BSDF_NULL:
             return (float3)(1.0f);
         default:

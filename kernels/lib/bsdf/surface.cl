@@ -113,8 +113,8 @@ static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
     s->frame.n = frame_to_world(&frame, tilted.n);
 }
 
-/// Makes a parameter of a material part of the BSDF. Textures of numbers may leave the range from 0 to 1, which
-/// the models rely on.
+/// Makes a parameter of a material part of the BSDF. Textures of numbers may leave the range from 0 to 1,
+/// which the models rely on.
 static inline void set_parameter(Bsdf* bsdf, uint parameter, const TextureValue* value) {
     const float2 number = clamp(value->number, 0.0f, 1.0f);
     switch (parameter) {
@@ -165,6 +165,8 @@ static inline void set_parameter(Bsdf* bsdf, uint parameter, const TextureValue*
 static inline uint used_parameters(uint model) {
     switch (model) {
         case NEARLIGHT_BSDF_PLASTIC:
+        case NEARLIGHT_BSDF_PHONG:
+        case NEARLIGHT_BSDF_WARD:
             return USES(REFLECTANCE) | USES(SPECULAR) | USES(ROUGHNESS);
         case NEARLIGHT_BSDF_CONDUCTOR:
             return USES(SPECULAR) | USES(ROUGHNESS);
@@ -173,9 +175,9 @@ static inline uint used_parameters(uint model) {
         case NEARLIGHT_BSDF_THIN_DIELECTRIC:
             return USES(SPECULAR) | USES(TRANSMISSION);
         case NEARLIGHT_BSDF_PRINCIPLED:
-            return USES(REFLECTANCE) | USES(TRANSMISSION) | USES(ROUGHNESS) | USES(METALLIC) | USES(ANISOTROPIC) |
-                   USES(SPEC_TRANS) | USES(SPEC_TINT) | USES(SHEEN) | USES(SHEEN_TINT) | USES(FLATNESS) |
-                   USES(CLEARCOAT) | USES(CLEARCOAT_GLOSS);
+            return USES(REFLECTANCE) | USES(TRANSMISSION) | USES(ROUGHNESS) | USES(METALLIC) |
+                   USES(ANISOTROPIC) | USES(SPEC_TRANS) | USES(SPEC_TINT) | USES(SHEEN) | USES(SHEEN_TINT) |
+                   USES(FLATNESS) | USES(CLEARCOAT) | USES(CLEARCOAT_GLOSS);
         case NEARLIGHT_BSDF_NULL:
             return 0u;
         default:  // diffuse, and models that stand for others
@@ -203,6 +205,8 @@ static inline float3 diffuse_color(const Bsdf* bsdf, const global Material* mate
     const float3 base = bsdf->base;
     switch (bsdf->model) {
         case NEARLIGHT_BSDF_DIFFUSE:
+        case NEARLIGHT_BSDF_PHONG:
+        case NEARLIGHT_BSDF_WARD:
             return base;
         case NEARLIGHT_BSDF_PLASTIC: {
             const float3 inside = bsdf->flags & NEARLIGHT_MATERIAL_NONLINEAR ? base : (float3)(1.0f);
