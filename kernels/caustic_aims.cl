@@ -3,9 +3,9 @@
 // where to look for the light (lib/caustic_aim.cl).
 //
 // caustic_walks: one work-item for each walk, from first_walk on; any work-group size. A walk follows mirror
-// images and refractions alone, and of the two ways on from glass it takes the rarer one more often than
-// light does. What passes straight on is no mirror and no glass. Points and directions emit no such walks,
-// since no ray finds such a light.
+// images, refractions and rough glass alone, and of the two ways on from smooth glass it takes the rarer one
+// more often than light does. What passes straight on is no mirror and no glass. Points and directions emit
+// no such walks, since no ray finds such a light.
 
 #include "lib/caustic_aim.cl"
 #include "lib/light_walk.cl"
@@ -40,7 +40,7 @@ OUTLINED_ON_CPU CausticLanding follow_caustic(const SceneView* scene, uint walk,
         const float way = choose_way_evenly(&at.surface, to_unit_float(random.y), &weight);
         const BsdfSample sample = bsdf_sample(scene, &at.surface, BSDF_D | BSDF_S, way,
                                               (float2)(to_unit_float(random.z), to_unit_float(random.w)));
-        if (!sample.is_delta) {
+        if (!is_mirror_or_glass(&at.surface, sample.is_delta)) {
             break;
         }
         if (!sample.is_straight) {

@@ -47,7 +47,7 @@ struct RayBudget {
     float clamp_radius = 0.0f;  ///< m
     uint direct_samples_per_pixel = 64;
     float shared_limit = std::numeric_limits<float>::max();  ///< GatherSettings::shared_limit, W/m²/sr
-    bool aims_at_caustics = false;  ///< whether receivers aim rays at mirrors and glass
+    uint aimed_rays = 0;  ///< ReceiverPathSettings::aimed_rays, at mirrors and glass
 
     friend bool operator==(const RayBudget&, const RayBudget&) = default;
 };

@@ -60,6 +60,7 @@ struct Fit {
 SceneCamera default_camera(const Scene& scene) {
     SceneCamera camera;
     camera.fov_x_degrees = kFieldOfView;
+    camera.filter = default_filter(kUsualFilter);
     const Aabb box = bounds(scene);
     const Vec3 away = normalize(kTowardsCamera);
     const Vec3 right = normalize(cross({0, 1, 0}, away));

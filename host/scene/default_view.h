@@ -7,7 +7,8 @@
 
 namespace nearlight::core {
 
-/// A 640 × 480 camera (45° wide) that frames all triangles from the front, right and above; y is up.
+/// A 640 × 480 camera (45° wide) with the usual filter that frames all triangles from the front, right and
+/// above; y is up.
 SceneCamera default_camera(const Scene& scene);
 
 /// Adds the default camera with a remark.

@@ -175,11 +175,9 @@ bool has_rough_gloss(const Scene& scene, const Material& material) {
 
 bool has_mirror(const Scene& scene, const Material& material) {
     return any_of_tree(scene, material, [](const Material& m) {
-        const bool is_metal_or_glass =
-            m.model == NEARLIGHT_BSDF_CONDUCTOR || m.model == NEARLIGHT_BSDF_DIELECTRIC;
-        return is_metal_or_glass &&
-               (m.roughness.texture >= 0 ||
-                std::min(m.roughness.value.x, m.roughness.value.y) < NEARLIGHT_MIN_ALPHA);
+        const bool may_be_smooth = m.roughness.texture >= 0 ||
+                                   std::min(m.roughness.value.x, m.roughness.value.y) < NEARLIGHT_MIN_ALPHA;
+        return m.model == NEARLIGHT_BSDF_DIELECTRIC || (m.model == NEARLIGHT_BSDF_CONDUCTOR && may_be_smooth);
     });
 }
 

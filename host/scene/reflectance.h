@@ -23,7 +23,7 @@ bool has_diffuse(const Scene& scene, const Material& material);
 bool has_specular(const Scene& scene, const Material& material);
 /// Whether S may spread light over more than single directions, and keep it on its side.
 bool has_rough_gloss(const Scene& scene, const Material& material);
-/// Whether light may leave as a mirror image of a metal, or through the smooth boundary of a glass body.
+/// Whether light may leave as a mirror image of a metal, or through the boundary of a glass body.
 bool has_mirror(const Scene& scene, const Material& material);
 /// Whether light may be scattered by the back, too: a two-sided material or one that lets light through.
 bool reflects_back(const Scene& scene, const Material& material);

@@ -27,7 +27,7 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const PictureTask& 
     const uint rays = per_sample(settings.rays_per_pixel, settings);
     return {.light_samples = per_sample(picture.budget.direct_samples_per_pixel, settings),
             .rays = settings.compensate ? rays : 0,
-            .aimed_rays = picture.budget.aims_at_caustics ? 1u : 0u,
+            .aimed_rays = picture.budget.aimed_rays,
             .max_edges = std::max(picture.max_depth, 1u) - 1,
             .clamp_radius = picture.budget.clamp_radius,
             .seed = picture.seed,

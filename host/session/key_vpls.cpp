@@ -36,7 +36,7 @@ JoinedVpls join_on_host(std::span<const VplPart> parts) {
         budget.direct_samples_per_pixel =
             std::max(budget.direct_samples_per_pixel, own.direct_samples_per_pixel);
         budget.shared_limit = std::min(budget.shared_limit, own.shared_limit);
-        budget.aims_at_caustics = budget.aims_at_caustics || own.aims_at_caustics;
+        budget.aimed_rays = std::max(budget.aimed_rays, own.aimed_rays);
     }
     if (have_budgets && !parts.empty()) {
         all.set.ray_budget = budget;

@@ -24,6 +24,9 @@ constexpr std::array<uint, 4> kLightSampleNumbers{16, 32, 64, 128};
 constexpr double kPixelCost = 40;
 constexpr double kLightSampleCost = 0.75;
 constexpr double kAimedRayCost = 0.8;  ///< likewise
+/// Candidates of rays that a receiver aims.
+constexpr std::array<uint, 3> kAimedRayNumbers{1, 4, 16};
+static_assert(kAimedRayNumbers.back() <= kMaxAimedRays);
 /// Cosine-distributed rays for each that aims, about as many as each sample of a pixel has.
 constexpr uint kRaysOfAim = 4;
 constexpr std::array<uint, 2> kRaySeeds{0x0c1a3bu, 0x7e57edu};
@@ -32,6 +35,8 @@ constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in t
 /// met a lamp's reflection would otherwise decide for the whole picture.
 constexpr double kMaxErrorOfVpls = 0.2;
 constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;  ///< and of one light sample
+/// Likewise of rays that meet lamps over mirrors and glass, which is known better.
+constexpr double kMaxErrorOfDot = 16;
 /// The squared error of one draw of a cut, relative to the light of all VPLs: it is about 1 where half of
 /// what is drawn is occluded (bench/log/cuts.md).
 constexpr double kErrorOfDraw = 1.0;
@@ -192,18 +197,23 @@ struct MeanCausticErrors {
     double aimed = 0;
 };
 
-MeanCausticErrors caustic_errors(const BudgetPilot& pilot, std::span<const double> squares) {
+/// The errors for so many aimed rays. Where that of a receiver without them exceeds its bound, that with them
+/// is lessened in proportion, so that the bound does not hide what aiming gains.
+MeanCausticErrors caustic_errors(const BudgetPilot& pilot, std::span<const double> squares, uint aimed_rays) {
     const CausticErrors errors = pilot.stages.receiver_paths.caustic_errors(
         {pilot.scene,
          pilot.view.receivers,
          pilot.view.packet_count,
-         {.rays = kRaysOfAim, .aimed_rays = 1, .max_edges = pilot.max_edges, .seed = pilot.seed}});
+         {.rays = kRaysOfAim, .aimed_rays = aimed_rays, .max_edges = pilot.max_edges, .seed = pilot.seed}});
     const double share =
         static_cast<double>(kRaysOfAim) / pilot.rays_per_pixel / static_cast<double>(squares.size());
     MeanCausticErrors mean;
     for (std::size_t i = 0; i < squares.size(); ++i) {
-        mean.unaimed += share * std::min(double{errors.unaimed[i]} / squares[i], kMaxErrorOfRay);
-        mean.aimed += share * std::min(double{errors.aimed[i]} / squares[i], kMaxErrorOfRay);
+        const double unaimed = double{errors.unaimed[i]} / squares[i];
+        const double aimed = double{errors.aimed[i]} / squares[i];
+        const double part = unaimed > kMaxErrorOfDot ? kMaxErrorOfDot / unaimed : 1.0;
+        mean.unaimed += share * part * unaimed;
+        mean.aimed += share * part * aimed;
     }
     return mean;
 }
@@ -229,13 +239,25 @@ Candidate best_number(const ErrorParts& mean, uint rays, float radius) {
     return best;
 }
 
-bool aiming_pays(const Candidate& candidate, const MeanCausticErrors& caustic, uint rays) {
-    const double cost_of_aiming = kAimedRayCost * rays / kRaysOfAim;
-    const bool pays = (candidate.error + caustic.aimed) * (candidate.cost + cost_of_aiming) <
-                      (candidate.error + caustic.unaimed) * candidate.cost;
-    say_debug("light over mirrors and glass adds an error of " + std::to_string(caustic.unaimed) + ", or " +
-              std::to_string(caustic.aimed) + " by aimed rays: receivers " + (pays ? "aim" : "do not aim"));
-    return pays;
+/// How many rays receivers aim at mirrors and glass: 0 where that does not pay.
+uint best_aimed_rays(const BudgetPilot& pilot, const Candidate& candidate, std::span<const double> squares) {
+    uint best = 0;
+    double best_value = std::numeric_limits<double>::infinity();
+    for (const uint aimed_rays : kAimedRayNumbers) {
+        const MeanCausticErrors caustic = caustic_errors(pilot, squares, aimed_rays);
+        const double cost = kAimedRayCost * aimed_rays * pilot.rays_per_pixel / kRaysOfAim;
+        const double unaimed = (candidate.error + caustic.unaimed) * candidate.cost;
+        const double aimed = (candidate.error + caustic.aimed) * (candidate.cost + cost);
+        say_debug("light over mirrors and glass adds an error of " + std::to_string(caustic.unaimed) +
+                  ", or " + std::to_string(caustic.aimed) + " with " + std::to_string(aimed_rays) +
+                  " aimed rays of a receiver");
+        if (aimed < unaimed && aimed / unaimed < best_value) {
+            best_value = aimed / unaimed;
+            best = aimed_rays;
+        }
+    }
+    say_debug("receivers aim " + std::to_string(best) + " rays at mirrors and glass");
+    return best;
 }
 
 void say_candidate(const Candidate& candidate, const ErrorParts& mean, uint rays) {
@@ -267,8 +289,7 @@ RayBudget choose_ray_budget(const BudgetPilot& pilot) {
     }
     best.budget.shared_limit = limit;
     if (pilot.scene.caustic_aims.table.size > 0) {
-        best.budget.aims_at_caustics =
-            aiming_pays(best, caustic_errors(pilot, squares), pilot.rays_per_pixel);
+        best.budget.aimed_rays = best_aimed_rays(pilot, best, squares);
     }
     return best.budget;
 }

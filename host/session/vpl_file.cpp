@@ -12,6 +12,7 @@
 #include "host/base/packed_direction.h"
 #include "host/scene/file_text.h"
 #include "host/scene/ply_file.h"
+#include "host/stages/receiver_paths.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -52,7 +53,7 @@ std::string header_of(const VplFile& set) {
             say("clamp_radius " + decimal(set.origin->ray_budget->clamp_radius));
             say("light_samples " + decimal(set.origin->ray_budget->direct_samples_per_pixel));
             say("shared_limit " + decimal(set.origin->ray_budget->shared_limit));
-            say("aims_at_caustics " + decimal(set.origin->ray_budget->aims_at_caustics ? 1u : 0u));
+            say("aimed_rays " + decimal(set.origin->ray_budget->aimed_rays));
         }
     }
     text += "element vertex " + decimal(set.vpls.size()) + "\n";
@@ -110,7 +111,12 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
                 fail_ply(file, "the header's shared limit must be a finite number that is 0 or more");
             }
         }
-        origin.ray_budget->aims_at_caustics = value_of(header, "aims_at_caustics") == "1";
+        if (!value_of(header, "aimed_rays").empty()) {
+            origin.ray_budget->aimed_rays = number_of<uint>(file, header, "aimed_rays");
+            if (origin.ray_budget->aimed_rays > kMaxAimedRays) {
+                fail_ply(file, "the header's aimed rays must be at most " + decimal(kMaxAimedRays));
+            }
+        }
     }
     return origin;
 }

@@ -54,7 +54,7 @@ struct DeviceScene {
     // The host needs these without asking the device.
     SceneInfo host_info{};
     bool has_rough_gloss = false;  ///< some material spreads light by gloss
-    bool has_mirrors = false;    ///< some material is a smooth mirror or the boundary of a smooth glass body
+    bool has_mirrors = false;    ///< some material is a smooth mirror or the boundary of a glass body
     bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
     float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
     float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W

@@ -12,6 +12,9 @@
 
 namespace nearlight::core {
 
+/// The most rays that a receiver aims at mirrors and glass.
+inline constexpr uint kMaxAimedRays = 64;
+
 struct ReceiverPathSettings {
     /// Samples that each receiver takes of area lights, the sun and the environment, at least 1. Points,
     /// spots, projectors and directional lights need none, unless there are more than
@@ -21,7 +24,7 @@ struct ReceiverPathSettings {
     uint rays = 0;
     /// Rays of each receiver besides these that aim at mirrors and glass, where DeviceScene::caustic_aims has
     /// targets for it. They bring light of lamps over mirrors and glass alone.
-    uint aimed_rays = 0;
+    uint aimed_rays = 0;  ///< at most kMaxAimedRays
     /// The maximum number of edges of a path from a light to a receiver that the camera sees without anything
     /// between: 1 is direct light. A receiver behind n mirrors or panes gets n edges less.
     uint max_edges = 1;

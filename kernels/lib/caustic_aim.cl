@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays of receivers that aim at mirrors and glass from where walks of light came.
 //
-// No light sample finds a lamp in a mirror or behind a glass body, and cosine-distributed rays find it by
-// chance: each find is a bright dot. Walks from lights over mirrors and glass tell where to look
-// (caustic_aims.cl). A receiver takes those that landed near it: it draws one of their targets, the places
-// where they met the last mirror or glass, and a direction in a cone about it, as photons guide paths in
-// [Jensen, Importance Driven Path Tracing using the Photon Map, 1995]. The balance heuristic combines these
-// rays with the others [Veach & Guibas 1995], so that the picture does not depend on where walks landed.
+// No light sample finds a lamp in a mirror or behind a smooth glass body, hardly one a lamp behind slightly
+// rough glass, and cosine-distributed rays find them by chance: each find is a bright dot. Walks from lights
+// over mirrors and glass tell where to look (caustic_aims.cl). A receiver takes those that landed near it: it
+// draws one of their targets, the places where they met the last mirror or glass, and a direction in a cone
+// about it, as photons guide paths in [Jensen, Importance Driven Path Tracing using the Photon Map, 1995].
+// The balance heuristic combines these rays with the others [Veach & Guibas 1995], so that the picture does
+// not depend on where walks landed.
 #ifndef NEARLIGHT_LIB_CAUSTIC_AIM
 #define NEARLIGHT_LIB_CAUSTIC_AIM
 
@@ -107,6 +108,12 @@ static inline float unaimed_part(const CausticAim* aim, float cosine, float3 dir
     const float unaimed = (float)aim->cosine_rays * cosine * M_1_PI_F;
     const float aimed = (float)aim->aimed_rays * caustic_pdf(aim, direction);
     return unaimed > 0.0f ? unaimed / (unaimed + aimed) : 0.0f;
+}
+
+/// Whether light that goes on from this surface, where scatter_ray() or a walk turned it, still came over
+/// mirrors and glass alone: by a mirror image, by a refraction, or by rough glass, all of whose light counts.
+static inline bool is_mirror_or_glass(const SurfaceBsdf* surface, bool is_delta) {
+    return is_delta || surface->bsdf.model == NEARLIGHT_BSDF_DIELECTRIC;
 }
 
 /// The chance by which rays that aim take the rarer of the two ways on from a glass body.

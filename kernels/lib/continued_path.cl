@@ -226,7 +226,7 @@ typedef struct ContinuedPath {
     float shared_limit;      // RayShare.shared_limit times that weight
     float3 first_direction;  // from the receiver
     float first_cosine;      // of that direction at the receiver
-    uint is_specular;        // 1: only mirror images, refractions and veils so far
+    uint is_specular;        // 1: only mirrors, glass and veils so far, rough glass among them
     ReceivedLight light;
 } ContinuedPath;
 
@@ -242,11 +242,12 @@ static inline void add_by_chance(ContinuedPath* path, float3 light) {
     path->way.excess += (1.0f - part) * light;
 }
 
-/// The part of the light of a lamp that the path brings, where rays that aim at mirrors and glass bring the
-/// rest.
+/// The part of the light of a lamp that the path brings which came over mirrors and glass alone. Rays that
+/// aim at these bring the rest.
 static inline float part_beside_aimed(const ContinuedPath* path, const RayShare* share) {
-    const bool is_aimed_at = share->aim != 0 && path->is_specular && path->ray.pdf == 0.0f;
-    return is_aimed_at ? unaimed_part(share->aim, path->first_cosine, path->first_direction) : 1.0f;
+    return share->aim != 0 && path->is_specular
+               ? unaimed_part(share->aim, path->first_cosine, path->first_direction)
+               : 1.0f;
 }
 
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
@@ -280,8 +281,10 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
         find_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, share->max_edges - 2,
                               path->way.near_scale * survived, numbers->light_seed, found);
     } else {
-        path->light.indirect += before * continued_sample(scene, &path->hit, surface, parts, share,
-                                                          &path->way, surfaces, numbers->light_seed);
+        const float part = is_mirror_or_glass(surface, false) ? part_beside_aimed(path, share) : 1.0f;
+        path->light.indirect += part * before *
+                                continued_sample(scene, &path->hit, surface, parts, share, &path->way,
+                                                 surfaces, numbers->light_seed);
     }
     if (!scatter_ray(scene, &path->ray, &path->hit, surface, parts, numbers->lobe, numbers->direction)) {
         return false;
@@ -345,7 +348,7 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Ra
         !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {
         return false;
     }
-    path->is_specular &= path->ray.pdf == 0.0f || path->ray.veils == surfaces;
+    path->is_specular &= is_mirror_or_glass(&surface, path->ray.pdf == 0.0f) || path->ray.veils == surfaces;
     path->hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
     add_met_light(scene, path, share, surfaces, numbers.draw, found);
     return path->hit.t >= 0.0f;

@@ -163,14 +163,21 @@ OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, con
         const SurfaceBsdf surface = surface_bsdf(scene, &hit, ray.direction, BSDF_RADIANCE, numbers.model);
         float weight = 1.0f;
         const float way = surfaces == 1 ? choose_way_evenly(&surface, numbers.lobe, &weight) : numbers.lobe;
-        if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, numbers.end) ||
-            !scatter_ray(scene, &ray, &hit, &surface, BSDF_S, way, numbers.direction) ||
-            !(ray.pdf == 0.0f || ray.veils == surfaces)) {
+        if (!survives(&ray, bsdf_albedo(scene, &surface), surfaces, first_weight, numbers.end)) {
+            break;
+        }
+        if (is_mirror_or_glass(&surface, false) && !is_delta_only(&surface.bsdf)) {
+            const LightQuota quota = {1, 1, limits->max_edges - surfaces - 1, 0, 0};
+            light +=
+                ray.throughput * reflected_light(scene, &hit, &surface, BSDF_S, &quota, numbers.light_seed);
+        }
+        if (!scatter_ray(scene, &ray, &hit, &surface, BSDF_S, way, numbers.direction) ||
+            !(is_mirror_or_glass(&surface, ray.pdf == 0.0f) || ray.veils == surfaces)) {
             break;
         }
         ray.throughput *= weight;
         hit = trace_surface(scene, ray.origin, ray.direction, INFINITY);
-        if (ray.pdf == 0.0f) {
+        if (ray.veils != surfaces) {
             light += ray.throughput * met_light(scene, &ray, &hit);
         }
     }

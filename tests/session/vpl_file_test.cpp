@@ -207,6 +207,12 @@ TEST(VplFile, BrokenFilesAreErrors) {
                    "comment clamp_radius 1\ncomment light_samples 16\ncomment shared_limit " + limit + "\n"),
             "shared limit must be a finite number");
     }
+    for (const char* rays : {"-1", "yes", "65"}) {
+        fails(
+            titled(std::string("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n") +
+                   "comment clamp_radius 1\ncomment light_samples 16\ncomment aimed_rays " + rays + "\n"),
+            "aimed");
+    }
     VplFile odd{.vpls = {Vpl{}}};
     odd.vpls[0].flags = 7u << NEARLIGHT_VPL_CURVE_SHIFT;
     expect_error([&] { check_vpls(odd, corner(), 8, "odd.ply"); }, ErrorKind::file, "transmission curve");

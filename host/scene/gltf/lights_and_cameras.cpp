@@ -144,7 +144,10 @@ SceneCamera choose_camera(const GltfFile& file, const std::vector<PlacedCamera>&
         names.push_back({placed.node, placed.camera->name});
     }
     const PlacedCamera& placed = cameras[choose_named(file.path, "camera", names, wanted)];
-    return placed.camera->type == "orthographic" ? orthographic(file, placed) : perspective(file, placed);
+    SceneCamera camera =
+        placed.camera->type == "orthographic" ? orthographic(file, placed) : perspective(file, placed);
+    camera.filter = default_filter(kUsualFilter);
+    return camera;
 }
 
 }  // namespace nearlight::core::gltf

@@ -22,7 +22,6 @@ void apply_sensors(const Object& root, const std::string& wanted, Scene& scene, 
     const std::size_t chosen = choose_named(scene.source, "camera", names, wanted);
     if (sensors.empty()) {
         scene.camera = default_camera(scene);
-        scene.camera.filter = default_filter(FilterKind::gaussian);
         notes.remark(scene.source, root.where.line,
                      "the scene has no sensor; a camera that frames everything is added");
         return;

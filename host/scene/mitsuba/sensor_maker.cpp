@@ -107,7 +107,7 @@ void apply_sensor(const Object& sensor, Scene& scene, NoteSink& notes) {
         fail_unknown_type(sensor, "perspective, thinlens, orthographic");
     }
     SceneCamera& camera = scene.camera;
-    camera.filter = default_filter(FilterKind::gaussian);
+    camera.filter = default_filter(kUsualFilter);
     FilmSize film;
     camera.width = film.width;
     camera.height = film.height;
