@@ -2,8 +2,6 @@
 // Mitsuba's BSDFs and textures. Expected numbers come from Mitsuba 3.9.1 (traverse, eval).
 #include "tests/scene/mitsuba_material.h"
 
-#include <algorithm>
-
 #include "host/scene/reflectance.h"
 
 namespace nearlight::core {
@@ -73,84 +71,10 @@ TEST_F(MitsubaMaterial, PlasticsAndTheirOldNames) {
     EXPECT_EQ(scene_.transmission_curves.size(), 2u * NEARLIGHT_CURVE_SIZE);
 }
 
-TEST_F(MitsubaMaterial, LobesOfMitsuba06StandBesideTheirBase) {
-    const Material phong = load("phong", "");
-    EXPECT_FLOAT_EQ(phong.reflectance.value.x, 0.5f);
-    EXPECT_FLOAT_EQ(phong.specular.value.x, 0.2f);
-    EXPECT_FLOAT_EQ(phong.roughness.value.x, 0.25f);  // √(2/32)
-    const Material given = load("phong", rgb("diffuseReflectance", "0.4") +
-                                             rgb("specularReflectance", "0.3") + number("exponent", "0"));
-    EXPECT_FLOAT_EQ(given.reflectance.value.x, 0.4f);
-    EXPECT_FLOAT_EQ(given.specular.value.x, 0.3f);
-    EXPECT_FLOAT_EQ(given.roughness.value.x, 1.0f);
-    EXPECT_TRUE(has_diffuse(scene_, given));
-    EXPECT_TRUE(has_rough_gloss(scene_, given));
-    const Material ward = load("ward", number("alphaU", "0.05") + number("alphaV", "0.2"));
-    EXPECT_FLOAT_EQ(ward.roughness.value.x, 0.05f);
-    EXPECT_FLOAT_EQ(ward.roughness.value.y, 0.2f);
-    EXPECT_NE(ward.flags & NEARLIGHT_MATERIAL_TANGENT, 0u);
-    EXPECT_EQ(notes_on_line_2(""), 0u);
-}
-
-TEST_F(MitsubaMaterial, LobesReflectNoMoreThanArrives) {
-    const Material phong =
-        load("phong", rgb("diffuseReflectance", "0.5 0.9 0.1") + rgb("specularReflectance", "0.6"));
-    EXPECT_FLOAT_EQ(phong.reflectance.value.x, 0.5f / 1.5f);
-    EXPECT_FLOAT_EQ(phong.specular.value.x, 0.6f / 1.5f);
-    const std::string checks = "<texture name='diffuseReflectance' type='checkerboard'>" +
-                               rgb("color0", "0.2") + rgb("color1", "1") + "</texture>";
-    EXPECT_FLOAT_EQ(load("ward", checks).specular.value.x, 0.2f / 1.2f);
-}
-
-TEST_F(MitsubaMaterial, OtherVariantsOfWardAreNoted) {
-    load("ward", text("variant", "ward-duer"));
-    EXPECT_EQ(notes_on_line_2("replaced by 'balanced'"), 1u);
-}
-
 TEST_F(MitsubaMaterial, NamesMayHaveCapitals) {
     EXPECT_EQ(load("roughconductor", text("distribution", "GGX")).flags & NEARLIGHT_MATERIAL_BECKMANN, 0u);
     EXPECT_FLOAT_EQ(load("dielectric", text("int_ior", "BK7")).eta.x,
                     load("dielectric", text("int_ior", "bk7")).eta.x);
-}
-
-TEST_F(MitsubaMaterial, TheLastOfTwoPropertiesCountsInOldFiles) {
-    const auto write = [&](const std::string& version) {
-        files_.write("twice.xml", "<scene version='" + version + "'>\n" +
-                                      shape("rectangle", "<bsdf type='diffuse'>" + rgb("reflectance", "0.1") +
-                                                             rgb("reflectance", "0.3") + "</bsdf>") +
-                                      "</scene>\n");
-    };
-    write("0.6.0");
-    const Scene old = load_scene(files_.path("twice.xml"));
-    expect_near(old.materials.at(old.triangles.at(0).material).reflectance.value, {0.3f, 0.3f, 0.3f});
-    EXPECT_EQ(std::ranges::count_if(old.notes,
-                                    [](const Note& note) {
-                                        return mentions(to_string(note),
-                                                        "twice.xml:2: property 'reflectance' is given twice");
-                                    }),
-              1);
-    write("3.0.0");
-    EXPECT_TRUE(mentions(file_error([&] { load_scene(files_.path("twice.xml")); }), "is given twice"));
-}
-
-TEST_F(MitsubaMaterial, AMediumAloneHasNoSurfaceInOldFiles) {
-    const auto model = [&](const std::string& version) {
-        const Scene scene = load_scene(files_.write(
-            "m.xml", "<scene version='" + version + "'>" +
-                         shape("rectangle", "<medium type='homogeneous' name='interior'/>") + "</scene>\n"));
-        return scene.materials.at(scene.triangles.at(0).material).model;
-    };
-    EXPECT_EQ(model("0.6.0"), NEARLIGHT_BSDF_NULL);
-    EXPECT_NE(model("3.0.0"), NEARLIGHT_BSDF_NULL);
-}
-
-TEST_F(MitsubaMaterial, ConductorsOfOldFilesAreCopper) {
-    const std::string text =
-        "<scene version='0.6.0'>" + shape("rectangle", "<bsdf type='conductor'/>") + "</scene>\n";
-    const Scene scene = load_scene(files_.write("scene.xml", text));
-    const Material metal = scene.materials.at(scene.triangles.at(0).material);
-    EXPECT_EQ(metal.eta, load("conductor", "<string name='material' value='Cu'/>").eta);
-    EXPECT_FLOAT_EQ(load("conductor", "").k.x, 1.0f) << "a perfect mirror, as in Mitsuba 3";
 }
 
 TEST_F(MitsubaMaterial, Metals) {
@@ -370,6 +294,7 @@ TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
         {"<bsdf type='mask'>" + plastic + plastic + "</bsdf>", "needs one nested bsdf"},
         {"<bsdf type='conductor'>" + text("material", "Unobtainium") + "</bsdf>", "unknown metal"},
         {"<bsdf type='dielectric'>" + text("int_ior", "soup") + "</bsdf>", "no index of refraction"},
+        {"<bsdf type='coating'>" + plastic + "</bsdf>", "only supported over diffuse bsdfs and metals"},
         {"<bsdf type='ward'>" + text("variant", "gold") + "</bsdf>", "unknown variant 'gold'"},
         {"<bsdf type='roughplastic'>" + text("distribution", "as-you-like") + "</bsdf>", "distribution"},
         {"<bsdf type='diffuse'>" + bitmap("reflectance", "x.png", text("wrap_mode", "zero")) + "</bsdf>",

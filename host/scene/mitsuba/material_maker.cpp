@@ -14,7 +14,8 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-constexpr const char* kNested = "twosided, mask, bumpmap, normalmap, blendbsdf, mixturebsdf, null";
+constexpr const char* kNested =
+    "twosided, mask, bumpmap, normalmap, blendbsdf, mixturebsdf, coating, roughcoating, null";
 
 /// Whether there is a normal or bump map within a BSDF, which must not contain itself.
 bool holds_map(const Object& bsdf) {
@@ -125,6 +126,9 @@ uint MaterialMaker::make_new(const Object& bsdf, int depth) {
     if (type == "mixturebsdf") {
         return make_mixture(bsdf, depth);
     }
+    if (type == "coating" || type == "roughcoating") {
+        return make_coating(bsdf, depth);
+    }
     if (type == "bumpmap" || type == "bump") {
         return make_bump(bsdf, depth);
     }
@@ -190,6 +194,29 @@ uint MaterialMaker::make_mixture(const Object& bsdf, int depth) {
                            : one;
     }
     return all;
+}
+
+uint MaterialMaker::make_coating(const Object& bsdf, int depth) {
+    const Material below = scene_.materials[make_nested(bsdf, depth)];
+    Varnish varnish = models_.make_varnish(bsdf);
+    if (below.model == NEARLIGHT_BSDF_DIFFUSE) {
+        varnish.coat.reflectance = below.reflectance;
+        varnish.coat.reflectance.value = below.reflectance.value * varnish.transmittance;
+        return add(varnish.coat);
+    }
+    if (below.model != NEARLIGHT_BSDF_CONDUCTOR) {
+        fail(bsdf.where, "'" + bsdf.type + "' is only supported over diffuse bsdfs and metals");
+    }
+    note(notes_, bsdf.where,
+         "the metal under '" + bsdf.type +
+             "' gets light in all directions as it does straight through the coat");
+    // The sum of two lobes is the blend of twice each.
+    const auto passes = static_cast<float>(1.0 - dielectric_reflectance(1.0, double{varnish.coat.eta.x}));
+    Material metal = below;
+    metal.specular.value = below.specular.value * varnish.transmittance * (2.0f * passes * passes);
+    varnish.coat.specular.value = varnish.coat.specular.value * 2.0f;
+    const uint coat = add(varnish.coat);
+    return add(blend_material(parameter_of(0.5f), coat, add(metal)));
 }
 
 uint MaterialMaker::make_bump(const Object& bsdf, int depth) {

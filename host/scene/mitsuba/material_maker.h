@@ -34,6 +34,8 @@ class MaterialMaker {
     /// Mitsuba 0.5's mixture, as a blend of each BSDF with all that follow it. What the weights lack of 1 is
     /// black.
     uint make_mixture(const Object& bsdf, int depth);
+    /// Mitsuba 0.6's coats: light passes the coat, is reflected below it once, and passes it again.
+    uint make_coating(const Object& bsdf, int depth);
     uint make_bump(const Object& bsdf, int depth);
     uint make_normal_map(const Object& bsdf, int depth);
     /// What lies under a normal or bump map, with notes of what of the map is left out.

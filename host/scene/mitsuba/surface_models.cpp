@@ -144,28 +144,47 @@ void SurfaceModels::read_roughness(const Object& bsdf, Material& material) {
     }
 }
 
-Material SurfaceModels::make_plastic(const Object& bsdf) {
+Material SurfaceModels::make_coat(const Object& bsdf, double interior, bool nonlinear) {
     Material microfacets = plain_material(NEARLIGHT_BSDF_PLASTIC);
     read_microfacets(bsdf, microfacets);
     if (microfacets.roughness.texture >= 0) {
-        note(notes_, bsdf.where, "a texture for 'alpha' of 'roughplastic' is replaced by its mean");
+        note(notes_, bsdf.where, "a texture for 'alpha' of '" + bsdf.type + "' is replaced by its mean");
     }
     const Vec3 alpha = mean_value(scene_, microfacets.roughness);
     if (alpha.x != alpha.y) {
-        note(notes_, bsdf.where, "anisotropic roughness of 'roughplastic' is replaced by its mean");
+        note(notes_, bsdf.where, "anisotropic roughness of '" + bsdf.type + "' is replaced by its mean");
     }
-    const Coat coat{.eta = index_ratio(bsdf, 1.49),
+    const Coat coat{.eta = index_ratio(bsdf, interior),
                     .alpha = std::clamp(0.5 * static_cast<double>(alpha.x + alpha.y), 0.0, 1.0),
                     .beckmann = (microfacets.flags & NEARLIGHT_MATERIAL_BECKMANN) != 0,
-                    .nonlinear = bsdf.boolean("nonlinear", false)};
+                    .nonlinear = nonlinear};
     const auto [entry, is_new] = plastics_.try_emplace(coat);
     if (is_new) {
         entry->second = plastic_material(scene_, coat);
     }
     Material material = entry->second;
-    material.reflectance = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
     material.specular = textures_.reflectance(bsdf, "specular_reflectance", {1, 1, 1});
     return material;
+}
+
+Material SurfaceModels::make_plastic(const Object& bsdf) {
+    Material material = make_coat(bsdf, 1.49, bsdf.boolean("nonlinear", false));
+    material.reflectance = textures_.reflectance(bsdf, "diffuse_reflectance", {0.5f, 0.5f, 0.5f});
+    return material;
+}
+
+Varnish SurfaceModels::make_varnish(const Object& bsdf) {
+    Varnish varnish{.coat = make_coat(bsdf, 1.5046, false)};
+    varnish.coat.internal_reflectance = 0.0f;
+    varnish.coat.reflectance = parameter_of(0.0f);
+    const auto thickness = static_cast<float>(bsdf.number("thickness", 1.0));
+    const Vec3 absorbed = textures_.color(bsdf, "sigma_a", {0, 0, 0}, false) * (2.0f * thickness);
+    varnish.transmittance = {std::exp(-absorbed.x), std::exp(-absorbed.y), std::exp(-absorbed.z)};
+    if (!is_zero(absorbed)) {
+        note(notes_, bsdf.where,
+             "what '" + bsdf.type + "' absorbs is that of light straight through it, for all directions");
+    }
+    return varnish;
 }
 
 void SurfaceModels::read_metal(const Object& bsdf, Material& material) {

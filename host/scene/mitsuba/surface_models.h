@@ -11,6 +11,12 @@
 
 namespace nearlight::core::mitsuba {
 
+/// A coat as Mitsuba 0.6 lays it over another BSDF.
+struct Varnish {
+    Material coat;                ///< a plastic with a black base, within which light is not reflected
+    Vec3 transmittance{1, 1, 1};  ///< of what lies within the coat, for light straight down and up again
+};
+
 class SurfaceModels {
   public:
     static constexpr const char* kNames =
@@ -23,10 +29,14 @@ class SurfaceModels {
     /// The material, without emission, of a BSDF that kNames lists; nothing if its type is another. Throws
     /// Error(ErrorKind::file) where a value makes no sense.
     std::optional<Material> make(const Object& bsdf);
+    /// The coat of a `coating` or `roughcoating`.
+    Varnish make_varnish(const Object& bsdf);
 
   private:
     Material make_diffuse(const Object& bsdf);
     Material make_plastic(const Object& bsdf);
+    /// A plastic with a white base, and with the index that the coat has where the file says none.
+    Material make_coat(const Object& bsdf, double interior, bool nonlinear);
     Material make_conductor(const Object& bsdf);
     Material make_glass(const Object& bsdf);
     Material make_principled(const Object& bsdf);
