@@ -128,9 +128,15 @@ TEST(WhiteFurnace, EveryModelSendsWhatMitsubasDoes) {
     }
 }
 
+/// Mitsuba 3 has no Phong and no Ward; tests/stages/bsdf_test.cpp has their formulas.
+bool mitsuba_lacks(const BsdfCase& test) {
+    return test.name.find("Phong") != std::string::npos || test.name.find("Ward") != std::string::npos;
+}
+
 TEST(WhiteFurnace, TheTableHasEveryModel) {
     for (const BsdfCase& test : all_bsdf_cases()) {
-        EXPECT_NE(std::ranges::find(kMitsubaValues, test.name, &FurnaceValue::name), std::end(kMitsubaValues))
+        EXPECT_EQ(mitsuba_lacks(test), std::ranges::find(kMitsubaValues, test.name, &FurnaceValue::name) ==
+                                           std::end(kMitsubaValues))
             << test.name;
     }
 }
