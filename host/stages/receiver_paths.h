@@ -23,8 +23,8 @@ struct ReceiverPathSettings {
     /// Rays of each receiver. With 0, only direct light is found.
     uint rays = 0;
     /// Rays of each receiver besides these that aim at mirrors and glass, where DeviceScene::caustic_aims has
-    /// targets for it. They bring light of lamps over mirrors and glass alone.
-    uint aimed_rays = 0;  ///< at most kMaxAimedRays
+    /// targets for it, at most kMaxAimedRays. They bring light of lamps over mirrors and glass alone.
+    uint aimed_rays = 0;
     /// The maximum number of edges of a path from a light to a receiver that the camera sees without anything
     /// between: 1 is direct light. A receiver behind n mirrors or panes gets n edges less.
     uint max_edges = 1;

@@ -66,6 +66,25 @@ TEST_F(MitsubaOldMaterial, CoatsOfMitsuba06LieOverDiffuseSurfacesAndMetals) {
     EXPECT_EQ(notes_on_line_2("the metal under 'coating'"), 1u);
 }
 
+TEST_F(MitsubaOldMaterial, VarnishesLeaveOtherCoatsAsTheyAre) {
+    const std::string index = number("intIOR", "1.5") + number("extIOR", "1");
+    const std::string nonlinear = "<boolean name='nonlinear' value='true'/>";
+    const float alone = load("plastic", index + nonlinear).internal_reflectance;
+    EXPECT_GT(alone, 0.5f);
+    const Material both = load("blendbsdf", number("weight", "0.5") + "<bsdf type='coating'>" + index +
+                                                "<bsdf type='diffuse'/></bsdf><bsdf type='plastic'>" + index +
+                                                nonlinear + "</bsdf>");
+    EXPECT_EQ(child(both, 0).internal_reflectance, 0.0f);
+    EXPECT_FLOAT_EQ(child(both, 1).internal_reflectance, alone);
+}
+
+TEST_F(MitsubaOldMaterial, NoCoatMakesLight) {
+    const Material coat =
+        load("coating", number("thickness", "-3") + rgb("sigmaA", "1 0 2") + "<bsdf type='diffuse'/>");
+    expect_near(coat.reflectance.value, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(notes_on_line_2("absorbs less than nothing"), 1u);
+}
+
 TEST_F(MitsubaOldMaterial, OtherVariantsOfWardAreNoted) {
     load("ward", text("variant", "ward-duer"));
     EXPECT_EQ(notes_on_line_2("replaced by 'balanced'"), 1u);

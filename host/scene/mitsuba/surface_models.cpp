@@ -178,8 +178,12 @@ Varnish SurfaceModels::make_varnish(const Object& bsdf) {
     varnish.coat.internal_reflectance = 0.0f;
     varnish.coat.reflectance = parameter_of(0.0f);
     const auto thickness = static_cast<float>(bsdf.number("thickness", 1.0));
-    const Vec3 absorbed = textures_.color(bsdf, "sigma_a", {0, 0, 0}, false) * (2.0f * thickness);
+    const Vec3 given = textures_.color(bsdf, "sigma_a", {0, 0, 0}, false) * (2.0f * thickness);
+    const Vec3 absorbed = max(given, {0, 0, 0});
     varnish.transmittance = {std::exp(-absorbed.x), std::exp(-absorbed.y), std::exp(-absorbed.z)};
+    if (!(given == absorbed)) {
+        note(notes_, bsdf.where, "'" + bsdf.type + "' absorbs less than nothing; that counts as 0");
+    }
     if (!is_zero(absorbed)) {
         note(notes_, bsdf.where,
              "what '" + bsdf.type + "' absorbs is that of light straight through it, for all directions");
