@@ -101,7 +101,9 @@ static inline LightQuota surface_quota(const SceneView* scene, const CameraPath*
     const bool looks = looks_for_lights(scene, path, surface);
     quota.samples = max.samples > 0 ? light_sample_count(path, specular, max.samples) : 0;
     quota.rays = looks ? max.rays : 1;
-    quota.bundle_rays = looks && is_receiver && !surface->mapped ? max.bundle_rays : 0;
+    // Rays of the bundle look for the sky on the receiver's side alone, and by its own normal.
+    const bool shares_sky = looks && is_receiver && !surface->mapped && !may_transmit(&surface->bsdf);
+    quota.bundle_rays = shares_sky ? max.bundle_rays : 0;
     return quota;
 }
 

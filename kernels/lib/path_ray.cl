@@ -18,8 +18,12 @@ static inline float bundle_density(float3 normal, float3 direction, float bundle
     return bundle_ratio * fmax(dot(normal, direction), 0.0f) * M_1_PI_F;
 }
 
-/// The given parts of a surface as what asks lights for light at x.
+/// The given parts of a surface as what asks lights for light at x. What lets light through asks lights on
+/// both of its sides.
 static inline LightReceiver light_receiver(float3 x, const SurfaceBsdf* surface, uint parts) {
+    if ((parts & BSDF_S) && may_transmit(&surface->bsdf)) {
+        return even_receiver(x, (float3)(0.0f));
+    }
     const float share = parts == BSDF_S ? 1.0f : parts == BSDF_D ? 0.0f : surface->s_share;
     return glossy_receiver(x, surface->frame.n, surface->wo, share, lobe_roughness(&surface->bsdf));
 }

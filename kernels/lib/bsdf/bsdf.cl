@@ -205,6 +205,12 @@ static inline float transport_factor(const SurfaceBsdf* s, float3 wi, float eta)
     return down > 0.0f ? factor * fabs(dot(s->wo, s->frame.n) * dot(wi, s->geometric)) / down : 0.0f;
 }
 
+/// Whether S may turn light to the other side of the surface.
+static inline bool may_transmit(const Bsdf* bsdf) {
+    return bsdf->model == NEARLIGHT_BSDF_DIELECTRIC ||
+           (bsdf->model == NEARLIGHT_BSDF_PRINCIPLED && (is_thin(bsdf) || bsdf->spec_trans > 0.0f));
+}
+
 /// Index beyond the surface ÷ that on the viewer's side, for what the surface lets through.
 static inline float transmission_eta(const Bsdf* bsdf) {
     const bool body = bsdf->model == NEARLIGHT_BSDF_DIELECTRIC ||
