@@ -110,9 +110,10 @@ std::string to_table(const Comparison& comparison) {
                             "mean", "FLIP", "generate s", "gather s");
         for (const EqualVplsRow& row : scene.equal_vpls) {
             text += fmt::format(
-                "{:<26} {:>8} {:>9.0f} {:>9.0f} {:>22} {:>10.2f} {:>8.4f} {:>8.4f} {:>10.3f} {:>10.3f}\n",
+                "{:<26} {:>8} {:>9.0f} {:>9.0f} {:>22} {:>10} {:>8.4f} {:>8.4f} {:>10.3f} {:>10.3f}\n",
                 to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls, with_interval(row.rmse),
-                row.rmse_ratio, row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
+                std::isfinite(row.rmse_ratio) ? fmt::format("{:.2f}", row.rmse_ratio) : "-",
+                row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
         }
     }
     return text;

@@ -2,6 +2,7 @@
 #include "host/cli/diff_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -71,13 +72,18 @@ nlohmann::ordered_json to_json(const DiffOptions& options, const Image& a,
             {"layers", layers}};
 }
 
+/// A figure, or a dash where a layer has none.
+std::string text_of(double value, int decimals) {
+    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string to_table(const std::vector<LayerDifference>& differences) {
     std::string text = fmt::format("{:<16} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "layer", "RMSE",
                                    "relative MSE", "mean ratio", "FLIP", "not finite");
     for (const auto& [layer, difference] : differences) {
-        text += fmt::format("{:<16} {:>12.5g} {:>12.5g} {:>12.6f} {:>12.5f} {:>12}\n", name_of(layer),
-                            difference.rmse, difference.relative_mse, difference.mean_ratio, difference.flip,
-                            difference.non_finite);
+        text += fmt::format("{:<16} {:>12.5g} {:>12.5g} {:>12} {:>12} {:>12}\n", name_of(layer),
+                            difference.rmse, difference.relative_mse, text_of(difference.mean_ratio, 6),
+                            text_of(difference.flip, 5), difference.non_finite);
     }
     return text;
 }
@@ -122,7 +128,9 @@ void add_diff_command(CommandLine& line) {
         .add_option("-o,--output", options->map,
                     "Write a map of the FLIP error of the first layer to this file")
         ->type_name("MAP");
-    command.add_option("--layer", options->layers, "Compare only this layer; may be given several times")
+    command
+        .add_option("--layer", options->layers,
+                    "Compare only this layer, such as direct, N or depth; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);
 }

@@ -19,40 +19,61 @@ std::string channel_name(const std::string& layer, char component) {
     return layer.empty() ? std::string(1, component) : layer + "." + component;
 }
 
-std::vector<Vec3> color_pixels(const Image& image, const std::string& layer, const char* which) {
-    std::array<std::size_t, 3> indices{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::string name = channel_name(layer, "RGB"[c]);
+/// The channels of a layer: red, green and blue, or what else the picture has under this name.
+std::vector<std::string> layer_channels(const Image& image, const std::string& layer) {
+    const std::vector<std::string> colors{channel_name(layer, 'R'), channel_name(layer, 'G'),
+                                          channel_name(layer, 'B')};
+    std::vector<std::string> others;
+    for (const std::string& channel : image.channels) {
+        if (!layer.empty() && channel.starts_with(layer + ".") &&
+            channel.find('.', layer.size() + 1) == std::string::npos) {
+            others.push_back(channel);
+        }
+    }
+    const bool has_others = !others.empty() && others.size() <= 3;
+    return has_others && !has_color_layer(image, layer) ? others : colors;
+}
+
+/// The values of one to three channels. A single one stands for all three.
+std::vector<Vec3> pixels_of(const Image& image, const std::vector<std::string>& channels, const char* which) {
+    std::vector<std::size_t> indices;
+    for (const std::string& name : channels) {
         const int index = image.find_channel(name);
         if (index < 0) {
             throw Error(ErrorKind::file,
                         std::string("the ") + which + " picture has no channel '" + name + "'");
         }
-        indices[c] = static_cast<std::size_t>(index);
+        indices.push_back(static_cast<std::size_t>(index));
     }
     std::vector<Vec3> pixels(image.pixel_count());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const float* const values = image.values.data() + i * image.channel_count();
-        pixels[i] = {values[indices[0]], values[indices[1]], values[indices[2]]};
+        pixels[i].x = values[indices.front()];
+        pixels[i].y = indices.size() == 2 ? values[indices[1]] : values[indices[indices.size() / 2]];
+        pixels[i].z = values[indices.back()];
     }
     return pixels;
 }
 
 /// One layer of two pictures of the same size.
 struct Pair {
+    std::vector<std::string> channels;
     std::vector<Vec3> a;
     std::vector<Vec3> b;
     std::vector<bool> usable;  ///< finite in both pictures; all other pixels are black in both
     std::size_t usable_count = 0;
 };
 
-Pair color_pair(const Image& a, const Image& b, const std::string& layer) {
+Pair pair_of(const Image& a, const Image& b, const std::string& layer) {
     if (a.width != b.width || a.height != b.height) {
         throw Error(ErrorKind::file, "pictures of " + std::to_string(a.width) + "x" +
                                          std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
                                          std::to_string(b.height) + " pixels cannot be compared");
     }
-    Pair pair{color_pixels(a, layer, "first"), color_pixels(b, layer, "second"), {}, 0};
+    Pair pair;
+    pair.channels = layer_channels(a, layer);
+    pair.a = pixels_of(a, pair.channels, "first");
+    pair.b = pixels_of(b, pair.channels, "second");
     pair.usable.resize(pair.a.size());
     for (std::size_t i = 0; i < pair.a.size(); ++i) {
         pair.usable[i] = is_finite(pair.a[i]) && is_finite(pair.b[i]);
@@ -74,6 +95,18 @@ double ratio(double numerator, double denominator) {
         return numerator / denominator;
     }
     return numerator == 0.0 ? 1.0 : std::numeric_limits<double>::infinity();
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The mean FLIP error of the pixels that can be compared.
+double mean_flip(const Image& a, const Pair& pair) {
+    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < flip.size(); ++i) {
+        sum += pair.usable[i] ? static_cast<double>(flip[i]) : 0.0;
+    }
+    return sum / std::max<double>(1.0, static_cast<double>(pair.usable_count));
 }
 
 /// The colour (sRGB) of an error from 0 to 1: dark violet through red to pale yellow, in equal steps of
@@ -112,8 +145,7 @@ std::vector<std::string> color_layers(const Image& image) {
 }
 
 ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer) {
-    const Pair pair = color_pair(a, b, layer);
-    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+    const Pair pair = pair_of(a, b, layer);
     ImageDifference result;
     result.non_finite = pair.a.size() - pair.usable_count;
     double luminance_a = 0.0;
@@ -131,18 +163,23 @@ ImageDifference compare_images(const Image& a, const Image& b, const std::string
         }
         luminance_a += luminance_of(pair.a[i]);
         luminance_b += luminance_of(pair.b[i]);
-        result.flip += static_cast<double>(flip[i]);
     }
     const double count = std::max<double>(1.0, static_cast<double>(pair.usable_count));
     result.rmse = std::sqrt(result.rmse / (3.0 * count));
     result.relative_mse /= 3.0 * count;
-    result.mean_ratio = ratio(luminance_a, luminance_b);
-    result.flip /= count;
+    const bool is_vector = !has_color_layer(a, layer) && pair.channels.size() > 1;
+    result.mean_ratio = is_vector ? kNone : ratio(luminance_a, luminance_b);
+    result.flip = has_color_layer(a, layer) ? mean_flip(a, pair) : kNone;
     return result;
 }
 
 Image flip_map(const Image& a, const Image& b, const std::string& layer) {
-    const Pair pair = color_pair(a, b, layer);
+    const Pair pair = pair_of(a, b, layer);
+    if (!has_color_layer(a, layer)) {
+        throw Error(ErrorKind::file, "layer '" + layer +
+                                         "' is not one of colours, so that FLIP has no map of it; name one "
+                                         "that has the channels R, G and B first");
+    }
     const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
     Image map = make_image(a.width, a.height, {"R", "G", "B"});
     for (std::size_t i = 0; i < flip.size(); ++i) {

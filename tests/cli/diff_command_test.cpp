@@ -71,6 +71,19 @@ TEST_F(Diff, OneLayer) {
     EXPECT_EQ(missing.output, "");
 }
 
+TEST_F(Diff, LayersOfOtherChannelsHaveNoFlip) {
+    write_image(folder_ / "near.exr", constant_image(8, 4, {"depth.Z"}, 2.0f));
+    write_image(folder_ / "far.exr", constant_image(8, 4, {"depth.Z"}, 4.0f));
+    const std::string files = quoted(folder_ / "near.exr") + " " + quoted(folder_ / "far.exr");
+    const ProgramResult result = run_program("diff --json --layer depth " + files);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const nlohmann::json layer = nlohmann::json::parse(result.output)["layers"][0];
+    EXPECT_NEAR(layer["rmse"], 2.0, 1e-6);
+    EXPECT_NEAR(layer["mean_ratio"], 0.5, 1e-6);
+    EXPECT_TRUE(layer["flip"].is_null());
+    EXPECT_NE(run_program("diff --layer depth " + files).output.find(" - "), std::string::npos);
+}
+
 TEST_F(Diff, WritesTheMapAndKeepsOutputPure) {
     const auto map = folder_ / "map.png";
     const ProgramResult result = run_program("diff --json --verbose " + both_ + " -o " + quoted(map));

@@ -55,6 +55,21 @@ TEST(Metrics, ChannelsAreFoundByName) {
     EXPECT_THROW(compare_images(a, b, "y"), Error);
 }
 
+TEST(Metrics, LayersThatAreNotColours) {
+    const std::vector<std::string> channels{"depth.Z", "N.X", "N.Y", "N.Z"};
+    const Image a = picture(2, 1, {3, 0, 0, 1, 1, 0, 1, 0}, channels);
+    const Image b = picture(2, 1, {1, 0, 0, 1, 1, 0, 0, 1}, channels);
+    const ImageDifference depth = compare_images(a, b, "depth");
+    EXPECT_NEAR(depth.rmse, std::sqrt(4.0 / 2.0), 1e-6);
+    EXPECT_NEAR(depth.mean_ratio, 2.0, 1e-6);
+    EXPECT_TRUE(std::isnan(depth.flip));
+    const ImageDifference normals = compare_images(a, b, "N");
+    EXPECT_NEAR(normals.rmse, std::sqrt(2.0 / 6.0), 1e-6);
+    EXPECT_TRUE(std::isnan(normals.mean_ratio));
+    EXPECT_TRUE(std::isnan(normals.flip));
+    EXPECT_THROW(flip_map(a, b, "N"), Error);
+}
+
 TEST(Metrics, LayersNeedAllThreeChannels) {
     EXPECT_TRUE(color_layers(picture(1, 1, {1, 2, 3, 4}, {"R", "G", "a.R", "Z"})).empty());
     EXPECT_EQ(color_layers(make_image(1, 1, {"a.b.R", "a.b.G", "a.b.B"})), (std::vector<std::string>{"a.b"}));
