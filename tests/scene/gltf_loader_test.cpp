@@ -284,6 +284,10 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
                     root.erase("nodes");
                 }),
                 HasSubstr("no scene"));
+    EXPECT_THAT(with([](json& root) {
+                    root["nodes"] = {{"name", json::object()}};
+                }),
+                HasSubstr("is of glTF 1"));
 }
 
 TEST_F(GltfLoader, WhatIsCutShortOrNoGltfIsRefused) {
@@ -295,6 +299,9 @@ TEST_F(GltfLoader, WhatIsCutShortOrNoGltfIsRefused) {
     EXPECT_THAT(file_error([&] { load_scene(files_.write("no.gltf", "{\"asset\": ")); }),
                 HasSubstr("not a valid glTF"));
     EXPECT_THAT(file_error([&] { load_scene(files_.write("no.gltf", "[]")); }), HasSubstr("no.gltf"));
+    std::string old = binary;
+    old[4] = 1;
+    EXPECT_THAT(file_error([&] { load_scene(files_.write("old.glb", old)); }), HasSubstr("is of glTF 1"));
 }
 
 }  // namespace

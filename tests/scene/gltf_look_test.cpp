@@ -251,6 +251,16 @@ TEST_F(GltfLook, HolesOfOtherImagesAreNoted) {
     EXPECT_THAT(shared.notes, Not(Contains(Field(&Note::text, HasSubstr("shine in the holes")))));
 }
 
+TEST_F(GltfLook, ImagesOfOtherKindsInDataUris) {
+    const std::string red = "UklGRhwAAABXRUJQVlA4TA8AAAAvAAAAAAcQ/Y/+ByKi/wEA";
+    gltf_.root["images"] = {{{"uri", "data:image/webp;base64," + red}}};
+    gltf_.root["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"extensions", {{"KHR_materials_unlit", json::object()}}}};
+    const Scene scene = load();
+    expect_close(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f), {1, 0, 0}, 1e-3f);
+}
+
 TEST_F(GltfLook, FactorsOfZeroWinOverTextures) {
     add_texel({1, 1, 1, 1});
     gltf_.material()["pbrMetallicRoughness"] = {

@@ -134,6 +134,12 @@ TEST(Obj, LinesMayContinue) {
     EXPECT_TRUE(mentions(error, "m.obj:5: ")) << error;
 }
 
+TEST(Obj, TextOfWideCharactersIsNamed) {
+    const SceneFiles files;
+    const std::string error = file_error([&] { load_obj(files, std::string("\xff\xfev\0 \0", 6)); });
+    EXPECT_TRUE(mentions(error, "UTF-16")) << error;
+}
+
 TEST(Obj, ColoursOfVerticesAreTheSurfaces) {
     const SceneFiles files;
     const Scene scene = load_obj(files, "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0.5 0.5 0.5\nf 1 2 3\n");

@@ -2,6 +2,8 @@
 #include "host/scene/gltf/gltf_file.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string_view>
 
@@ -52,9 +54,21 @@ bool is_supported(std::string_view extension) {
 /// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
 constexpr std::size_t kMaxNesting = 200;
 
-/// Refuses what tinygltf must not see: extensions that are not supported here, and JSON that would overflow
-/// the stack.
-void check_before_reading(const GltfFile& file, const JsonSurvey& survey) {
+/// The version in the header of a .glb, or 0.
+std::uint32_t container_version(std::string_view text) {
+    std::uint32_t version = 0;
+    if (text.starts_with("glTF") && text.size() >= 8) {
+        std::memcpy(&version, text.data() + 4, sizeof version);
+    }
+    return version;
+}
+
+/// Refuses what tinygltf must not see: glTF 1, extensions that are not supported here, and JSON that would
+/// overflow the stack.
+void check_before_reading(const GltfFile& file, std::string_view text, const JsonSurvey& survey) {
+    if (container_version(text) == 1 || survey.is_version_1) {
+        file.fail("is of glTF 1, but only glTF 2.0 is read; convert it, for example with gltf-pipeline");
+    }
     for (const std::string& extension : survey.required) {
         if (!is_supported(extension)) {
             const char* const remedy = extension == kDracoExtension
@@ -86,6 +100,24 @@ bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, i
     return true;
 }
 
+/// Decodes images in data URIs of kinds that tinygltf leaves as they are, such as WebP.
+void decode_other_images(tinygltf::Model& model) {
+    for (tinygltf::Image& image : model.images) {
+        const std::size_t comma = image.uri.find(',');
+        const std::string head = image.uri.substr(0, comma);
+        if (!head.starts_with("data:image/") || !head.ends_with(";base64")) {
+            continue;
+        }
+        // tinygltf decodes bytes of this kind, whatever they are.
+        const std::string known = "data:application/octet-stream;base64," + image.uri.substr(comma + 1);
+        std::string kind;
+        if (tinygltf::DecodeDataURI(&image.image, kind, known, 0, false)) {
+            image.mimeType = head.substr(5, head.find(';') - 5);
+            image.uri.clear();
+        }
+    }
+}
+
 const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const char* extension,
                               const char* key) {
     const auto found = extensions.find(extension);
@@ -102,7 +134,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     GltfFile file{path, {}};
     std::string text = read_file_text(path);
     const JsonSurvey survey = survey_json(json_of(text));
-    check_before_reading(file, survey);
+    check_before_reading(file, text, survey);
     if (survey.is_valid && std::ranges::find(survey.used, kDracoExtension) != survey.used.end() &&
         can_decode_draco()) {
         text = without_compressed_indices(text);
@@ -121,6 +153,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     if (!read) {
         file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
     }
+    decode_other_images(file.model);
     return file;
 }
 

@@ -33,10 +33,14 @@ class Surveyor : public nlohmann::json_sax<Json> {
             list_ = value == "extensionsRequired" ? &survey_.required
                     : value == "extensionsUsed"   ? &survey_.used
                                                   : nullptr;
+            is_list_ = value == "meshes" || value == "nodes" || value == "scenes";
         }
         return true;
     }
-    bool start_object(std::size_t) override { return begin(); }
+    bool start_object(std::size_t) override {
+        survey_.is_version_1 |= is_list_ && depth_ == 1;
+        return begin();
+    }
     bool start_array(std::size_t) override { return begin(); }
     bool end_object() override { return end(); }
     bool end_array() override { return end(); }
@@ -55,6 +59,7 @@ class Surveyor : public nlohmann::json_sax<Json> {
     JsonSurvey& survey_;
     std::size_t depth_ = 0;
     std::vector<std::string>* list_ = nullptr;
+    bool is_list_ = false;  ///< inside what is an array of the root in glTF 2.0
 };
 
 std::string word(std::size_t value) {

@@ -13,6 +13,7 @@ struct JsonSurvey {
     std::size_t depth = 0;              ///< how deep arrays and objects are nested
     std::vector<std::string> required;  ///< what `extensionsRequired` names
     std::vector<std::string> used;      ///< what `extensionsUsed` names
+    bool is_version_1 = false;          ///< meshes, nodes or scenes have names in place of numbers
 };
 
 /// Reads the text once, in constant memory, however deeply it is nested.

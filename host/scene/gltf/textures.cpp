@@ -32,8 +32,10 @@ std::string decoded_uri(const std::string& uri) {
     return name;
 }
 
+/// The image's name, with the extension of its kind if it is no file.
 std::string name_of(const tinygltf::Image& image) {
-    const std::string kind = image.mimeType == "image/jpeg" ? ".jpg" : ".png";
+    const bool is_webp = image.mimeType == "image/webp";
+    const std::string kind = image.mimeType == "image/jpeg" ? ".jpg" : is_webp ? ".webp" : ".png";
     return !image.uri.empty() ? image.uri : (image.name.empty() ? "image" : image.name) + kind;
 }
 

@@ -236,6 +236,9 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
+    if (obj.text.starts_with("\xff\xfe") || obj.text.starts_with("\xfe\xff")) {
+        throw Error(ErrorKind::file, file.string() + ": is UTF-16 text; save it as UTF-8");
+    }
     tidy_lines(obj.text);
     for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
         obj.libraries.emplace(line.number, name);
