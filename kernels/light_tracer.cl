@@ -2,10 +2,12 @@
 // Sparse quasi-random light tracing (instant radiosity) [Keller, Instant Radiosity, SIGGRAPH 1997; paper §3
 // (3)].
 //
-// One work-item for each walk, from first_walk on; any work-group size. A walk leaves a light, meets up to
-// bounce_count surfaces, and deposits a VPL on each that has a Lambertian part. The deposit goes to slot
-// (walk − first_walk) · bounce_count + (depth − 1) of `vpls`, and the same slot of `flags` gets 1 if it is to
-// be kept.
+// light_tracer: one work-item for each walk, from first_walk on. A walk leaves a light, meets up to
+// bounce_count surfaces, and deposits a VPL on each that has a Lambertian part. Those that are to be kept go
+// one after the other into the walk's slots of `vpls`, from (walk − first_walk) · bounce_count on, and
+// `counts` gets how many there are.
+// light_tracer_collect: one work-item for each walk copies its deposits to `kept`, from begins[item] on.
+// Any work-group size.
 //
 // Absorption is fractional. A walk is one of `launched` walks, a real number that is all_walks at the light
 // and that each surface multiplies by the part of the flux that it sends on, within [min_survival,
@@ -40,12 +42,12 @@ typedef struct Region {
     const global uint* close_triangles;
 } Region;
 
-/// Follows the walk number `walk` of all, and keeps what it leaves at each bounce in `vpls`, where `flags`
-/// is 1.
-OUTLINED_ON_CPU void follow_walk(const SceneView* scene, const Region* region,
+/// Follows the walk number `walk` of all, writes what is kept of it to `vpls`, and returns how much that is.
+OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const Region* region,
                                  const LightTracerParams* params, const WalkAim* aim, uint walk,
-                                 global Vpl* vpls, global uint* flags) {
+                                 global Vpl* vpls) {
     const uint seed = params->seed;
+    uint count = 0;
     EmittedParticle particle = emit_particle(scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
                                              sample_2d(walk, 2, seed));
     float launched = (float)params->all_walks;
@@ -55,7 +57,7 @@ OUTLINED_ON_CPU void follow_walk(const SceneView* scene, const Region* region,
         Landing at;
         if (!((float)walk + params->absorption_shift < launched) || is_black(particle.flux) ||
             !land(scene, &particle, choice.x, &at)) {
-            return;
+            break;
         }
         const float3 reflected = reflected_flux(scene, &particle, &at);
         const bool is_close = is_close_surface(region->close_range, region->close_triangles,
@@ -63,27 +65,36 @@ OUTLINED_ON_CPU void follow_walk(const SceneView* scene, const Region* region,
         const bool kept = params->keep == NEARLIGHT_KEEP_ALL || !is_close ||
                           (params->keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
         if (kept && !is_black(reflected)) {
-            vpls[bounce] = make_deposit(scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0,
-                                        reflected / launched);
-            flags[bounce] = 1;
+            vpls[count++] = make_deposit(scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0,
+                                         reflected / launched);
         }
         launched *= survival(scene, &particle, &at, params->min_survival, params->max_survival);
         scatter(scene, &particle, &at, aim, choice.y, sample_2d(walk, pair + 1, seed));
     }
+    return count;
 }
 
 kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict close_range,
                          const global uint* restrict close_triangles, LightTracerParams params, WalkAim aim,
-                         global Vpl* restrict vpls, global uint* restrict flags) {
+                         global Vpl* restrict vpls, global uint* restrict counts) {
     const uint index = (uint)get_global_id(0);
     if (index >= params.walk_count) {
         return;
     }
     const SceneView scene = SCENE_VIEW;
     const Region region = {close_range, close_triangles};
-    const uint first = index * params.bounce_count;
-    for (uint bounce = 0; bounce < params.bounce_count; ++bounce) {
-        flags[first + bounce] = 0;
+    counts[index] = follow_walk(&scene, &region, &params, &aim, params.first_walk + index,
+                                vpls + index * params.bounce_count);
+}
+
+kernel void light_tracer_collect(const global Vpl* restrict vpls, const global uint* restrict counts,
+                                 const global uint* restrict begins, uint walk_count, uint bounce_count,
+                                 global Vpl* restrict kept) {
+    const uint index = (uint)get_global_id(0);
+    if (index >= walk_count) {
+        return;
     }
-    follow_walk(&scene, &region, &params, &aim, params.first_walk + index, vpls + first, flags + first);
+    for (uint i = 0; i < counts[index]; ++i) {
+        kept[begins[index] + i] = vpls[index * bounce_count + i];
+    }
 }

@@ -8,7 +8,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kSlotsPerBatch = 1u << 18u;  // 12 MiB of VPLs
+constexpr uint kSlotsPerBatch = 1u << 20u;  // 48 MiB of VPLs
 
 }  // namespace
 
@@ -16,7 +16,8 @@ LightTracer::LightTracer(Device& device)
     : device_(&device),
       program_(device, "light_tracer.cl"),
       light_tracer_(program_, "light_tracer"),
-      compaction_(device) {}
+      collect_(program_, "light_tracer_collect"),
+      scan_(device) {}
 
 std::vector<Vpl> LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepDeposits keep,
                                   const LightWalks& walks) {
@@ -37,11 +38,10 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
     const auto slots_per_batch = static_cast<uint>(
         std::min<std::size_t>(kSlotsPerBatch, device_->entry().max_allocation_bytes / sizeof(Vpl)));
     const uint batch_size = std::min(walks.walk_count, std::max(1u, slots_per_batch / walks.bounce_count));
-    const std::size_t slot_count = static_cast<std::size_t>(batch_size) * walks.bounce_count;
-    Buffer<Vpl> slots(*device_, slot_count);
-    Buffer<Vpl> kept(*device_, slot_count);
-    Buffer<uint> flags(*device_, slot_count);
-    Buffer<uint> indices(*device_, slot_count);
+    Buffer<Vpl> slots(*device_, static_cast<std::size_t>(batch_size) * walks.bounce_count);
+    Buffer<Vpl> kept;
+    Buffer<uint> counts(*device_, batch_size);
+    Buffer<uint> begins(*device_, batch_size);
     for (uint first = 0; first < walks.walk_count; first += batch_size) {
         const uint count = std::min(batch_size, walks.walk_count - first);
         const LightTracerParams params{.whole_triangles = region.whole_triangles ? 1u : 0u,
@@ -57,11 +57,12 @@ void LightTracer::run(const DeviceScene& scene, const CloseRegion& region, KeepD
                                        .pad0 = 0,
                                        .pad1 = 0};
         light_tracer_.launch_items(count, scene, region.range, region.triangles, params, walks.aim, slots,
-                                   flags);
-        const std::size_t kept_count =
-            compaction_.list_set(flags, static_cast<std::size_t>(count) * walks.bounce_count, indices);
-        compaction_.gather(slots, indices, kept_count, kept);
+                                   counts);
+        scan_.exclusive(counts, begins, count);
+        const std::size_t kept_count = scan_.total().download().front();
         if (kept_count > 0) {
+            ensure_room(kept, *device_, kept_count);
+            collect_.launch_items(count, slots, counts, begins, count, walks.bounce_count, kept);
             visit(kept, kept_count);
         }
     }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/cl/kernel.h"
-#include "host/stages/compaction.h"
 #include "host/stages/device_scene.h"
+#include "host/stages/prefix_scan.h"
 #include "kernels/shared/light_tracer.h"
 #include "kernels/shared/walk_aim.h"
 
@@ -65,7 +65,8 @@ class LightTracer {
     Device* device_;
     Program program_;
     Kernel light_tracer_;
-    Compaction compaction_;
+    Kernel collect_;
+    PrefixScan<uint> scan_;
 };
 
 }  // namespace nearlight::core

@@ -78,8 +78,12 @@ static inline uint sequence_index(const CameraPath* path) {
 }
 
 /// How many of `max_count` light samples a surface takes whose S reflects `specular`: fewer where its light
-/// weighs little in the pixel.
+/// weighs little in the pixel, and one where a rough surface has scattered the path, whose chance direction
+/// makes more noise there.
 static inline uint light_sample_count(const CameraPath* path, float3 specular, uint max_count) {
+    if (path->mode != BSDF_CAMERA) {
+        return 1;
+    }
     const float weight = fmin(luminance(path->ray.throughput * specular), 1.0f);
     return max(1u, (uint)ceil((float)max_count * weight));
 }
@@ -121,8 +125,9 @@ static inline uint follow_specular(const SceneView* scene, CameraPath* path, con
     path->camera_light += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
                                            sequence_index(path) * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
-    const float reflected = reflection_probability(surface, numbers->direction);
-    if (path->undivided && reflected > 0.0f && reflected < 1.0f) {
+    const float reflected =
+        path->undivided ? reflection_probability(surface, numbers->direction) : 1.0f;
+    if (reflected > 0.0f && reflected < 1.0f) {
         const bool second = take_second_way(path, branch, 0.5f, 0.0f);
         path->ray.throughput *= second ? reflected : 1.0f - reflected;
         choice = second ? 0.0f : 0x1.fffffep-1f;

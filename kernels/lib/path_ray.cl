@@ -66,6 +66,12 @@ typedef struct LightQuota {
     uint first;        // number of the first light sample in its sequence
 } LightQuota;
 
+/// Whether the given parts of a surface reflect by mirror images and refractions alone, in which light samples
+/// find nothing.
+static inline bool is_delta_alone(const SurfaceBsdf* surface, uint parts) {
+    return is_delta_only(&surface->bsdf) && (!(parts & BSDF_D) || is_black(surface->bsdf.diffuse));
+}
+
 /// Radiance that the given parts of a surface send towards the viewer of the light that reaches it straight
 /// from lights or through veils, as far as light samples bring it: rays that follow the BSDF bring the rest.
 /// `key` is that of the sequence of light samples.
@@ -73,6 +79,9 @@ static inline float3 reflected_light(const SceneView* scene, const SurfaceHit* h
                                      const SurfaceBsdf* surface, uint parts, const LightQuota* quota,
                                      uint key) {
     float3 exact = (float3)(0.0f);
+    if (is_delta_alone(surface, parts)) {
+        return exact;
+    }
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, hit->position);
         exact += reflected_sample(scene, hit, surface, &light, parts, 0.0f, 0.0f, quota->max_veils);
