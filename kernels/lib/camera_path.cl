@@ -164,13 +164,13 @@ static inline uint follow_surface(const SceneView* scene, CameraPath* path, cons
     return follow_specular(scene, path, hit, surface, branch, *quota, numbers);
 }
 
-/// Ends long paths by chance. Diamonds and facing mirrors send light on almost undiminished, so that paths
-/// over tens of surfaces show. Returns false where the path ends.
+/// Ends long paths by chance, but not before many surfaces: paths over tens of them show in diamonds and
+/// facing mirrors. Returns false where the path ends.
 static inline bool goes_on(CameraPath* path, uint step, float u) {
     if (step < SURE_SURFACES) {
         return true;
     }
-    const float survival = fmin(0.95f, carried_part(&path->ray, (float3)(1.0f)) / SURE_WEIGHT);
+    const float survival = fmin(MAX_SURVIVAL, carried_part(&path->ray, (float3)(1.0f)) / SURE_WEIGHT);
     path->ray.throughput /= survival;
     return u < survival;
 }

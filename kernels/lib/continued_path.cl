@@ -18,7 +18,7 @@
 /// about what the surface reflects of all light. Returns false where this path ends.
 static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
     const float part = carried_part(ray, albedo) / first_weight;
-    const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(0.95f, part);
+    const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(MAX_SURVIVAL, part);
     if (!(u < survival)) {
         return false;
     }

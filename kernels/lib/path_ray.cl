@@ -193,6 +193,11 @@ static inline float carried_part(const PathRay* ray, float3 albedo) {
     return max_component(ray->throughput * albedo) * ray->index * ray->index;
 }
 
+/// The part of paths that a surface sends on at most where chance ends them. Glass and mirrors send light on
+/// almost undiminished: a diamond shows what has met a hundred surfaces, and the fewer paths get there, the
+/// more each of them counts.
+#define MAX_SURVIVAL 0.99f
+
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
 OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit* hit,
                           const SurfaceBsdf* surface, uint parts, float u, float2 v) {
