@@ -231,10 +231,12 @@ ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
 }
 
 void add_window_options(CLI::App& command, ViewOptions& options) {
-    command.add_option("--layer", options.layer, "Layer that is shown at the start")
-        ->type_name("NAME")
-        ->capture_default_str();
-    command.add_flag("--show-vpls", options.shows_vpls, "Draw VPLs over the picture from the start");
+    CLI::Option* const layer =
+        command.add_option("--layer", options.layer, "Layer that is shown at the start")
+            ->type_name("NAME")
+            ->capture_default_str();
+    CLI::Option* const vpls =
+        command.add_flag("--show-vpls", options.shows_vpls, "Draw VPLs over the picture from the start");
     CLI::Option* const frames =
         command
             .add_option(
@@ -253,8 +255,12 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
         .add_option("--screenshot", options.screenshot, "With --frames: write the window to this PNG file")
         ->needs(frames)
         ->type_name("FILE");
-    command.add_flag("--measure", options.measures,
-                     "Open no window, but move the camera about and say how soon pictures come");
+    command
+        .add_flag("--measure", options.measures,
+                  "Open no window, but move the camera about and say how soon pictures come")
+        ->excludes(layer)
+        ->excludes(vpls)
+        ->excludes(frames);
 }
 
 }  // namespace

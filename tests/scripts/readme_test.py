@@ -90,8 +90,8 @@ def reason_to_skip(words):
     """Why a command cannot run on this machine; empty if it can."""
     if words[0] != "view":
         return ""
-    if not shutil.which("xvfb-run"):
-        return "xvfb-run is missing (Debian: xvfb)"
+    if not shutil.which("xvfb-run") or not shutil.which("xauth"):
+        return "xvfb-run or xauth is missing (Debian: xvfb, xauth)"
     return "" if list(PROGRAM.parent.glob("**/nearlight-viewer.so")) else "the viewer is not built"
 
 

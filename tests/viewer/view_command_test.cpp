@@ -48,6 +48,7 @@ TEST(ViewCommand, PixelsAndScreenshotsAreCheckedBeforeAWindowOpens) {
     };
     EXPECT_NE(errors_of("--screenshot window.png").find("--screenshot requires --frames"), std::string::npos);
     EXPECT_NE(errors_of("--inspect 1,2").find("--inspect requires --frames"), std::string::npos);
+    EXPECT_NE(errors_of("--measure --show-vpls").find("--show-vpls excludes --measure"), std::string::npos);
     for (const char* const pixel : {"1", "1,2,3", "1,-2", "1,2x", "1,", "x,y", "1.5,2"}) {
         EXPECT_NE(errors_of(std::string("--frames 1 --inspect=") + pixel).find("--inspect"),
                   std::string::npos)
