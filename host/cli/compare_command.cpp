@@ -4,7 +4,6 @@
 #include <fmt/chrono.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <memory>
 
@@ -15,6 +14,7 @@
 #include "host/cli/progress_bar.h"
 #include "host/cli/scene_options.h"
 #include "host/compare/comparison.h"
+#include "host/compare/number_text.h"
 #include "host/compare/report.h"
 #include "host/image/image_io.h"
 
@@ -96,11 +96,6 @@ void tell(const Comparison& comparison, const CompareSettings& settings) {
     spdlog::info("wrote {}", (settings.output / "report.html").string());
 }
 
-std::string with_interval(const RmseEstimate& rmse) {
-    return fmt::format("{:.3g}", rmse.value) +
-           (std::isfinite(rmse.half_width) ? fmt::format(" ± {:.2g}", rmse.half_width) : "");
-}
-
 /// The table of equal VPLs for the terminal.
 std::string to_table(const Comparison& comparison) {
     std::string text;
@@ -111,8 +106,8 @@ std::string to_table(const Comparison& comparison) {
         for (const EqualVplsRow& row : scene.equal_vpls) {
             text += fmt::format(
                 "{:<26} {:>8} {:>9.0f} {:>9.0f} {:>22} {:>10} {:>8.4f} {:>8.4f} {:>10.3f} {:>10.3f}\n",
-                to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls, with_interval(row.rmse),
-                std::isfinite(row.rmse_ratio) ? fmt::format("{:.2f}", row.rmse_ratio) : "-",
+                to_string(row.method), row.vpls, row.gathered_vpls, row.sparse_vpls,
+                interval_text(row.rmse.value, row.rmse.half_width), fixed_text(row.rmse_ratio, 2),
                 row.mean_ratio.mean, row.flip.mean, row.generate_seconds, row.gather_seconds);
         }
     }

@@ -2,13 +2,13 @@
 #include "host/cli/diff_command.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/compare/number_text.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
 
@@ -72,18 +72,13 @@ nlohmann::ordered_json to_json(const DiffOptions& options, const Image& a,
             {"layers", layers}};
 }
 
-/// A figure, or a dash where a layer has none.
-std::string text_of(double value, int decimals) {
-    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
-}
-
 std::string to_table(const std::vector<LayerDifference>& differences) {
     std::string text = fmt::format("{:<16} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "layer", "RMSE",
                                    "relative MSE", "mean ratio", "FLIP", "not finite");
     for (const auto& [layer, difference] : differences) {
         text += fmt::format("{:<16} {:>12.5g} {:>12.5g} {:>12} {:>12} {:>12}\n", name_of(layer),
-                            difference.rmse, difference.relative_mse, text_of(difference.mean_ratio, 6),
-                            text_of(difference.flip, 5), difference.non_finite);
+                            difference.rmse, difference.relative_mse, fixed_text(difference.mean_ratio, 6),
+                            fixed_text(difference.flip, 5), difference.non_finite);
     }
     return text;
 }

@@ -34,7 +34,7 @@ std::vector<std::string> layer_channels(const Image& image, const std::string& l
     return has_others && !has_color_layer(image, layer) ? others : colors;
 }
 
-/// The values of one to three channels. A single one stands for all three.
+/// The values of one to three channels; missing ones are 0.
 std::vector<Vec3> pixels_of(const Image& image, const std::vector<std::string>& channels, const char* which) {
     std::vector<std::size_t> indices;
     for (const std::string& name : channels) {
@@ -48,16 +48,15 @@ std::vector<Vec3> pixels_of(const Image& image, const std::vector<std::string>& 
     std::vector<Vec3> pixels(image.pixel_count());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const float* const values = image.values.data() + i * image.channel_count();
-        pixels[i].x = values[indices.front()];
-        pixels[i].y = indices.size() == 2 ? values[indices[1]] : values[indices[indices.size() / 2]];
-        pixels[i].z = values[indices.back()];
+        const auto value = [&](std::size_t c) { return c < indices.size() ? values[indices[c]] : 0.0f; };
+        pixels[i] = {value(0), value(1), value(2)};
     }
     return pixels;
 }
 
 /// One layer of two pictures of the same size.
 struct Pair {
-    std::vector<std::string> channels;
+    std::size_t channel_count = 0;
     std::vector<Vec3> a;
     std::vector<Vec3> b;
     std::vector<bool> usable;  ///< finite in both pictures; all other pixels are black in both
@@ -70,10 +69,8 @@ Pair pair_of(const Image& a, const Image& b, const std::string& layer) {
                                          std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
                                          std::to_string(b.height) + " pixels cannot be compared");
     }
-    Pair pair;
-    pair.channels = layer_channels(a, layer);
-    pair.a = pixels_of(a, pair.channels, "first");
-    pair.b = pixels_of(b, pair.channels, "second");
+    const std::vector<std::string> channels = layer_channels(a, layer);
+    Pair pair{channels.size(), pixels_of(a, channels, "first"), pixels_of(b, channels, "second"), {}, 0};
     pair.usable.resize(pair.a.size());
     for (std::size_t i = 0; i < pair.a.size(); ++i) {
         pair.usable[i] = is_finite(pair.a[i]) && is_finite(pair.b[i]);
@@ -106,7 +103,7 @@ double mean_flip(const Image& a, const Pair& pair) {
     for (std::size_t i = 0; i < flip.size(); ++i) {
         sum += pair.usable[i] ? static_cast<double>(flip[i]) : 0.0;
     }
-    return sum / std::max<double>(1.0, static_cast<double>(pair.usable_count));
+    return sum / std::max(1.0, static_cast<double>(pair.usable_count));
 }
 
 /// The colour (sRGB) of an error from 0 to 1: dark violet through red to pale yellow, in equal steps of
@@ -164,12 +161,12 @@ ImageDifference compare_images(const Image& a, const Image& b, const std::string
         luminance_a += luminance_of(pair.a[i]);
         luminance_b += luminance_of(pair.b[i]);
     }
-    const double count = std::max<double>(1.0, static_cast<double>(pair.usable_count));
-    result.rmse = std::sqrt(result.rmse / (3.0 * count));
-    result.relative_mse /= 3.0 * count;
-    const bool is_vector = !has_color_layer(a, layer) && pair.channels.size() > 1;
-    result.mean_ratio = is_vector ? kNone : ratio(luminance_a, luminance_b);
-    result.flip = has_color_layer(a, layer) ? mean_flip(a, pair) : kNone;
+    const double count = std::max(1.0, static_cast<double>(pair.usable_count * pair.channel_count));
+    result.rmse = std::sqrt(result.rmse / count);
+    result.relative_mse /= count;
+    const bool is_color = has_color_layer(a, layer);
+    result.mean_ratio = is_color || pair.channel_count == 1 ? ratio(luminance_a, luminance_b) : kNone;
+    result.flip = is_color ? mean_flip(a, pair) : kNone;
     return result;
 }
 

@@ -125,8 +125,7 @@ static inline uint follow_specular(const SceneView* scene, CameraPath* path, con
     path->camera_light += looked_for_light(scene, &path->ray, hit, surface, BSDF_S, &quota,
                                            sequence_index(path) * (quota.rays - 1), path->sequence);
     float choice = numbers->lobe;
-    const float reflected =
-        path->undivided ? reflection_probability(surface, numbers->direction) : 1.0f;
+    const float reflected = path->undivided ? reflection_probability(surface, numbers->direction) : 1.0f;
     if (reflected > 0.0f && reflected < 1.0f) {
         const bool second = take_second_way(path, branch, 0.5f, 0.0f);
         path->ray.throughput *= second ? reflected : 1.0f - reflected;

@@ -291,7 +291,7 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
     }
     if (begins_bundle_path) {
         // All viewers in the bundle share the density of light samples, which must not depend on one of them.
-        path->ray.from = even_receiver(path->hit.position, surface->frame.n);
+        path->ray.from = even_receiver(path->ray.from.x, surface->frame.n);
         ArrivingRay* ray = &path->of_bundle.ray;
         ray->direction = path->ray.direction;
         ray->pdf = path->ray.pdf;

@@ -66,8 +66,8 @@ typedef struct LightQuota {
     uint first;        // number of the first light sample in its sequence
 } LightQuota;
 
-/// Whether the given parts of a surface reflect by mirror images and refractions alone, in which light samples
-/// find nothing.
+/// Whether the given parts of a surface reflect by mirror images and refractions alone, in which light
+/// samples find nothing.
 static inline bool is_delta_alone(const SurfaceBsdf* surface, uint parts) {
     return is_delta_only(&surface->bsdf) && (!(parts & BSDF_D) || is_black(surface->bsdf.diffuse));
 }

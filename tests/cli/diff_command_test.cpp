@@ -81,7 +81,7 @@ TEST_F(Diff, LayersOfOtherChannelsHaveNoFlip) {
     EXPECT_NEAR(layer["rmse"], 2.0, 1e-6);
     EXPECT_NEAR(layer["mean_ratio"], 0.5, 1e-6);
     EXPECT_TRUE(layer["flip"].is_null());
-    EXPECT_NE(run_program("diff --layer depth " + files).output.find(" - "), std::string::npos);
+    EXPECT_NE(run_program("diff --layer depth " + files).output.find("–"), std::string::npos);
 }
 
 TEST_F(Diff, WritesTheMapAndKeepsOutputPure) {

@@ -68,6 +68,9 @@ TEST(Metrics, LayersThatAreNotColours) {
     EXPECT_TRUE(std::isnan(normals.mean_ratio));
     EXPECT_TRUE(std::isnan(normals.flip));
     EXPECT_THROW(flip_map(a, b, "N"), Error);
+    const std::vector<std::string> of_two{"uv.U", "uv.V"};
+    EXPECT_NEAR(compare_images(picture(1, 1, {3, 1}, of_two), picture(1, 1, {1, 1}, of_two), "uv").rmse,
+                std::sqrt(4.0 / 2.0), 1e-6);
 }
 
 TEST(Metrics, LayersNeedAllThreeChannels) {

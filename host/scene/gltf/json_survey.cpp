@@ -59,7 +59,7 @@ class Surveyor : public nlohmann::json_sax<Json> {
     JsonSurvey& survey_;
     std::size_t depth_ = 0;
     std::vector<std::string>* list_ = nullptr;
-    bool is_list_ = false;  ///< inside what is an array of the root in glTF 2.0
+    bool is_list_ = false;  ///< the latest key of the root names an array of glTF 2.0
 };
 
 std::string word(std::size_t value) {
