@@ -10,6 +10,7 @@
 #include "host/scene/file_text.h"
 #include "host/scene/gltf/draco_codec.h"
 #include "host/scene/gltf/json_survey.h"
+#include "host/scene/gltf/meshopt.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core::gltf {
@@ -43,12 +44,59 @@ constexpr std::string_view kKnownExtensions[] = {
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
 };
-constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
 
-bool is_supported(std::string_view extension) {
-    return extension == kDracoExtension
-               ? can_decode_draco()
-               : std::ranges::find(kKnownExtensions, extension) != std::end(kKnownExtensions);
+/// Compressions, each of which takes a library that a build may lack.
+struct Compression {
+    std::string_view extension;
+    bool (*can_decode)();
+    const char* library;
+    const char* package;
+};
+constexpr Compression kCompressions[] = {
+    {"KHR_draco_mesh_compression", can_decode_draco, "Draco", "libdraco-dev"},
+    {"EXT_meshopt_compression", can_decode_meshopt, "meshoptimizer", "libmeshoptimizer-dev"},
+    {"KHR_meshopt_compression", can_decode_meshopt, "meshoptimizer", "libmeshoptimizer-dev"},
+};
+
+const Compression* compression_of(std::string_view extension) {
+    const auto* const found = std::ranges::find(kCompressions, extension, &Compression::extension);
+    return found == std::end(kCompressions) ? nullptr : found;
+}
+
+/// Fails if an extension that the file requires is not supported, or not in this build.
+void check_required(const GltfFile& file, const std::string& extension) {
+    const Compression* const compression = compression_of(extension);
+    if (compression != nullptr && !compression->can_decode()) {
+        file.fail("needs the extension " + extension + ", which this build lacks; build with " +
+                  compression->library + " (Debian's " + compression->package +
+                  "), or export the scene without it");
+    }
+    if (compression == nullptr &&
+        std::ranges::find(kKnownExtensions, extension) == std::end(kKnownExtensions)) {
+        file.fail("needs the extension " + extension +
+                  ", which is not supported; export the scene without it");
+    }
+}
+
+/// Whether a file uses a compression that this build can decode.
+bool is_decoded(const JsonSurvey& survey, std::string_view extension) {
+    return survey.is_valid && std::ranges::find(survey.used, extension) != survey.used.end() &&
+           compression_of(extension)->can_decode();
+}
+
+bool is_decoded_by_meshopt(const JsonSurvey& survey) {
+    return is_decoded(survey, "EXT_meshopt_compression") || is_decoded(survey, "KHR_meshopt_compression");
+}
+
+/// The file without what stands beside compressed meshes and what tinygltf refuses there.
+std::string without_stand_ins(std::string text, const JsonSurvey& survey) {
+    if (is_decoded(survey, "KHR_draco_mesh_compression")) {
+        text = without_compressed_indices(text);
+    }
+    if (is_decoded_by_meshopt(survey)) {
+        text = without_fallback_buffers(text);
+    }
+    return text;
 }
 
 /// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
@@ -70,14 +118,7 @@ void check_before_reading(const GltfFile& file, std::string_view text, const Jso
         file.fail("is of glTF 1, but only glTF 2.0 is read; convert it, for example with gltf-pipeline");
     }
     for (const std::string& extension : survey.required) {
-        if (!is_supported(extension)) {
-            const char* const remedy = extension == kDracoExtension
-                                           ? ", which this build lacks; build with Draco (Debian's "
-                                             "libdraco-dev), or export the scene "
-                                             "without it"
-                                           : ", which is not supported; export the scene without it";
-            file.fail("needs the extension " + extension + remedy);
-        }
+        check_required(file, extension);
     }
     if (survey.depth > kMaxNesting) {
         file.fail("its JSON is nested " + std::to_string(survey.depth) + " levels deep, which is more than " +
@@ -135,10 +176,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     std::string text = read_file_text(path);
     const JsonSurvey survey = survey_json(json_of(text));
     check_before_reading(file, text, survey);
-    if (survey.is_valid && std::ranges::find(survey.used, kDracoExtension) != survey.used.end() &&
-        can_decode_draco()) {
-        text = without_compressed_indices(text);
-    }
+    text = without_stand_ins(std::move(text), survey);
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keep_image, nullptr);
     std::string error;
@@ -154,6 +192,9 @@ GltfFile read_gltf(const std::filesystem::path& path) {
         file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
     }
     decode_other_images(file.model);
+    if (is_decoded_by_meshopt(survey)) {
+        decode_meshopt(file);
+    }
     return file;
 }
 

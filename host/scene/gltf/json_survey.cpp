@@ -81,6 +81,48 @@ std::string with_json(std::string_view file, std::string json) {
            word(json.size()) + std::string(file.substr(16, 4)) + json + std::string(rest);
 }
 
+/// The objects of an array of an object; none if there is no such array.
+std::vector<Json*> objects_of(Json& object, const char* key) {
+    std::vector<Json*> objects;
+    if (object.is_object() && object.contains(key) && object[key].is_array()) {
+        for (Json& element : object[key]) {
+            if (element.is_object()) {
+                objects.push_back(&element);
+            }
+        }
+    }
+    return objects;
+}
+
+bool has_extension(const Json& object, const char* extension) {
+    return object.contains("extensions") && object["extensions"].is_object() &&
+           object["extensions"].contains(extension);
+}
+
+/// Whether a buffer is marked as standing in for what the extension holds.
+bool is_fallback_of(const Json& buffer, const char* extension) {
+    if (!has_extension(buffer, extension)) {
+        return false;
+    }
+    const Json& object = buffer["extensions"][extension];
+    return object.is_object() && object.value("fallback", Json(false)) == Json(true);
+}
+
+/// Whether a buffer only stands in for what is compressed elsewhere. One without bytes does so, marked or
+/// not; the bytes of the first one of a .glb are in the file itself.
+bool is_stand_in(const Json& buffer, bool is_in_file) {
+    return is_fallback_of(buffer, "EXT_meshopt_compression") ||
+           is_fallback_of(buffer, "KHR_meshopt_compression") || (!buffer.contains("uri") && !is_in_file);
+}
+
+/// The file after `change` has been made to the root of its JSON.
+template <typename Change>
+std::string changed_json(std::string_view file, const Change& change) {
+    Json root = Json::parse(json_of(file));
+    change(root);
+    return with_json(file, root.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 }  // namespace
 
 JsonSurvey survey_json(std::string_view text) {
@@ -103,24 +145,28 @@ std::string_view json_of(std::string_view file) {
 }
 
 std::string without_compressed_indices(std::string_view file) {
-    Json root = Json::parse(json_of(file));
-    if (!root.is_object() || !root["meshes"].is_array()) {
-        return std::string(file);
-    }
-    for (Json& mesh : root["meshes"]) {
-        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
-            continue;
-        }
-        for (Json& primitive : mesh["primitives"]) {
-            const bool is_compressed = primitive.is_object() && primitive.contains("extensions") &&
-                                       primitive["extensions"].is_object() &&
-                                       primitive["extensions"].contains("KHR_draco_mesh_compression");
-            if (is_compressed) {
-                primitive.erase("indices");
+    return changed_json(file, [](Json& root) {
+        for (Json* const mesh : objects_of(root, "meshes")) {
+            for (Json* const primitive : objects_of(*mesh, "primitives")) {
+                if (has_extension(*primitive, "KHR_draco_mesh_compression")) {
+                    primitive->erase("indices");
+                }
             }
         }
-    }
-    return with_json(file, root.dump(-1, ' ', false, Json::error_handler_t::replace));
+    });
+}
+
+std::string without_fallback_buffers(std::string_view file) {
+    return changed_json(file, [&](Json& root) {
+        bool is_in_file = file.starts_with("glTF");
+        for (Json* const buffer : objects_of(root, "buffers")) {
+            if (is_stand_in(*buffer, is_in_file)) {
+                (*buffer)["byteLength"] = 1;
+                (*buffer)["uri"] = "data:application/octet-stream;base64,AA==";
+            }
+            is_in_file = false;
+        }
+    });
 }
 
 }  // namespace nearlight::core::gltf

@@ -26,4 +26,8 @@ std::string_view json_of(std::string_view file);
 /// view. The file must be valid.
 std::string without_compressed_indices(std::string_view file);
 
+/// The file with one byte in place of each buffer that stands in for compressed buffer views. Often there is
+/// no such buffer, only its length, which tinygltf refuses. The file must be valid.
+std::string without_fallback_buffers(std::string_view file);
+
 }  // namespace nearlight::core::gltf
