@@ -87,8 +87,8 @@ std::vector<Vec3> face_normals_of(const Mesh& mesh) {
 }
 
 CornerSets joined_corners(const Mesh& mesh, std::span<const uint> places, std::span<const uint> groups,
-                          std::span<const Vec3> face_normals) {
-    const float min_cosine = std::cos(kCreaseDegrees * kPi / 180.0f);
+                          std::span<const Vec3> face_normals, float crease_degrees) {
+    const float min_cosine = std::cos(crease_degrees * kPi / 180.0f);
     const auto is_smooth = [&](uint a, uint b) {
         return groups[a] == groups[b] &&
                (groups[a] != kSmoothByAngle || dot(face_normals[a], face_normals[b]) > min_cosine);
@@ -150,10 +150,11 @@ class VertexSplitter {
 
 }  // namespace
 
-void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups) {
+void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<const uint> groups,
+                        float crease_degrees) {
     const auto corners = static_cast<uint>(3 * mesh.triangles.size());
     const std::vector<Vec3> face_normals = face_normals_of(mesh);
-    CornerSets sets = joined_corners(mesh, places, groups, face_normals);
+    CornerSets sets = joined_corners(mesh, places, groups, face_normals, crease_degrees);
     std::vector<Vec3> normals(corners, Vec3{0, 0, 0});
     for (uint corner = 0; corner < corners; ++corner) {
         if (groups[corner / 3] != kFlat && !is_zero(face_normals[corner / 3])) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/math.h"
+#include "tests/scene/mitsuba_text.h"
 #include "tests/scene/obj_text.h"
 
 namespace nearlight::core {
@@ -64,6 +65,28 @@ TEST(Obj, WithoutNormalsSmallAnglesAreSmoothAndLargeOnesAreCreases) {
         expect_near(normal, {0, 0, 1});
     }
     EXPECT_EQ(crease.vertices.size(), 8u) << "the edge has two normals";
+}
+
+/// 0.5 and 0.6 make normals anew, whatever the file has.
+TEST(Obj, ShapesOfMitsubaMayHaveAMaximumSmoothAngle) {
+    const SceneFiles files;
+    files.write("m.obj", folded(60));
+    const auto load = [&](const std::string& more) {
+        return load_scene(files.write(
+            "scene.xml", "<scene version='0.6.0'>" +
+                             shape("obj", "<string name='filename' value='m.obj'/>" + more) + "</scene>"));
+    };
+    const auto angle = [](const char* degrees) {
+        return std::string("<float name='maxSmoothAngle' value='") + degrees + "'/>";
+    };
+    expect_near(corner_normals(load(angle("59")), 0)[2], {0, 0, 1});
+    expect_near(corner_normals(load(angle("61")), 0)[2], {0, -0.5f, std::sqrt(0.75f)});
+    EXPECT_TRUE(mentions(file_error([&] { load(angle("200")); }), "between 0 and 180"));
+    EXPECT_TRUE(
+        mentions(file_error([&] { load(angle("30") + "<boolean name='faceNormals' value='true'/>"); }),
+                 "exclude each other"));
+    files.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//1\n");
+    expect_near(corner_normals(load(angle("30")), 0)[0], {0, 0, 1});
 }
 
 TEST(Obj, SmoothingGroupsSayWhatIsSmooth) {

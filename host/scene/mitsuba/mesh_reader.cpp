@@ -2,12 +2,15 @@
 #include "host/scene/mitsuba/mesh_reader.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "host/base/thread_limit.h"
+#include "host/scene/crease_normals.h"
 #include "host/scene/mitsuba/mesh_attribute.h"
 #include "host/scene/mitsuba/serialized_mesh.h"
+#include "host/scene/places.h"
 #include "host/scene/ply_loader.h"
 
 namespace nearlight::core::mitsuba {
@@ -23,6 +26,9 @@ struct MeshSource {
     std::string type;
     int index = 0;          ///< among the meshes of a serialized file
     std::string attribute;  ///< which textures look up
+    /// Normals are made anew, with creases where faces meet at a greater angle; empty if those of the file
+    /// count.
+    std::optional<float> max_smooth_degrees{};
 };
 
 // Which of the meshes of a file the shape is.
@@ -34,14 +40,30 @@ int shape_index(const Object& shape) {
     return static_cast<int>(index);
 }
 
+// Mitsuba 0.5 and 0.6 make the normals of a shape that has this property.
+std::optional<float> max_smooth_degrees(const Object& shape) {
+    if (!shape.has("max_smooth_angle")) {
+        return std::nullopt;
+    }
+    if (shape.boolean("face_normals", false)) {
+        fail(shape.where, "'max_smooth_angle' and 'face_normals' exclude each other");
+    }
+    const double degrees = shape.number("max_smooth_angle", 0.0);
+    if (!(degrees >= 0.0 && degrees <= 180.0)) {
+        fail(shape.where, "'max_smooth_angle' should be between 0 and 180 degrees");
+    }
+    return static_cast<float>(degrees);
+}
+
 MeshSource source_of(const Object& shape) {
     return {.file = shape.required_string("filename"),
             .type = shape.type,
             .index = shape.type == "serialized" ? shape_index(shape) : 0,
-            .attribute = mesh_attribute_of(shape)};
+            .attribute = mesh_attribute_of(shape),
+            .max_smooth_degrees = max_smooth_degrees(shape)};
 }
 
-MeshFile read_source(const MeshSource& source) {
+MeshFile read_file(const MeshSource& source) {
     MeshFile file;
     if (source.type == "ply") {
         file.mesh = read_ply(source.file, source.attribute);
@@ -58,10 +80,22 @@ MeshFile read_source(const MeshSource& source) {
     return file;
 }
 
+MeshFile read_source(const MeshSource& source) {
+    MeshFile file = read_file(source);
+    if (source.max_smooth_degrees) {
+        check_mesh(file.mesh);
+        const std::vector<uint> groups(file.mesh.triangles.size(), kSmoothByAngle);
+        add_crease_normals(file.mesh, places_of(file.mesh.positions), groups, *source.max_smooth_degrees);
+        file.mesh.face_normals = false;
+    }
+    return file;
+}
+
 /// Whether a file can be read ahead, and what is wrong with a shape can wait until it is its turn.
 bool can_be_ahead(const Object& shape) {
     const Property* const file = shape.find("filename");
-    return shape.type == "obj" && file != nullptr && std::holds_alternative<std::string>(file->value);
+    return shape.type == "obj" && file != nullptr && std::holds_alternative<std::string>(file->value) &&
+           !shape.has("max_smooth_angle");
 }
 
 }  // namespace

@@ -201,11 +201,7 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
             scene_.round_lamps.push_back(*lamp);
         }
     }
-    if (shape.has("max_smooth_angle")) {
-        note(notes_, shape.where,
-             "'max_smooth_angle' is ignored; normals are smooth, or flat with face_normals");
-    }
-    shape.ignore({"max_smooth_angle", "collapse", "shape_index", "load_materials"});
+    shape.ignore({"collapse", "shape_index", "load_materials"});
     shape.report_unused(notes_);
 }
 
