@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An animation without flicker: the camera moves, and the VPLs stay where they are.
+"""An animation that hardly flickers: the camera moves, and the VPLs stay where they are.
 
 Makes frames FOLDER/0000.png, … of a camera that turns about the middle of what it sees. VPLs are placed once and light
 every frame. What flickers is measured: a surface that scatters light evenly looks alike from everywhere, so a point that

@@ -10,8 +10,9 @@ namespace nearlight::core {
 void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sampling) {
     command
         .add_option("--cuts", cuts,
-                    "on: there are more VPLs than --vpls, and each tile asks about those that could bring it "
-                    "most; off: there are as many as --vpls; auto: on with --vpl-set")
+                    "on: there are more VPLs than --vpls, and each small group of neighbouring samples (a "
+                    "bundle) asks about those that could bring it most; off: there are as many as --vpls; "
+                    "auto: on with --vpl-set")
         ->check(CLI::IsMember({"on", "off", "auto"}))
         ->type_name("on|off|auto")
         ->capture_default_str();

@@ -44,8 +44,8 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                 "--frames", [&options](const std::string& text) { options.range = parse_frames(text); },
                 "Render the frames A to B, both included, of a glTF file's animation, or only frame A; frame "
                 "N "
-                "shows the time N / --fps. In the name of -o, #### stands for the number, which else comes "
-                "before the extension")
+                "shows the time N / --fps. In the name of -o, #### stands for the number, which otherwise "
+                "comes before the extension")
             ->type_name("A[:B]");
     const auto needs_frames = [frames](CLI::Option* option) { return option->needs(frames); };
     needs_frames(command.add_option("--fps", options.animation.fps, "Frames per second, with --frames"))
@@ -60,9 +60,9 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
     needs_frames(
         command.add_option(
             "--vpl-keys", options.animation.vpl_keys,
-            "Where only the camera moves, VPLs are made for the views of every N-th frame, and fade "
-            "from one to the next so that nothing flickers; 0: anew for each frame (default: as many "
-            "as --fps)"))
+            "Where only the camera moves, VPLs are made for the views of every N-th frame, and fade from "
+            "one to the next so that they hardly flicker; 0: anew for each frame (default: as many as "
+            "--fps)"))
         ->check(CLI::Range(0, kMaxFrame))
         ->type_name("N");
     needs_frames(command.add_flag("--skip-existing", options.skip_existing,

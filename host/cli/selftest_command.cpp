@@ -98,7 +98,7 @@ ExitCode run_selftest_command(const DeviceChoice& asked, const GlobalOptions& gl
 void add_selftest_command(CommandLine& line) {
     auto choice = std::make_shared<DeviceChoice>();
     CLI::App& command = line.add_command(
-        "selftest", "Compare every kernel with its CPU or Embree oracle, on this machine's devices",
+        "selftest", "Compare every kernel with its CPU or Embree oracle, on each device of --device",
         [choice](const GlobalOptions& global) { return run_selftest_command(*choice, global); });
     add_device_options(command, *choice);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nearlight selftest` compares every kernel with its oracle on the host, on this machine's devices.
+// `nearlight selftest` compares every kernel with its oracle on the host, on the devices of --device.
 #pragma once
 
 #include "host/cli/command.h"

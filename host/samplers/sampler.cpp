@@ -21,8 +21,8 @@ void compile_for_bidirectional(SamplerStages& stages, Policy) {
 
 constexpr std::array kSamplers{
     SamplerEntry{SamplerKind::close_range, "close-range",
-                 "evenly over the surfaces close to and in front of the camera", sample_close_range,
-                 compile_for_close_range, false},
+                 "on the surfaces close to and in front of the camera, and sparsely elsewhere",
+                 sample_close_range, compile_for_close_range, false},
     SamplerEntry{SamplerKind::instant_radiosity, "instant-radiosity", "wherever light walks land",
                  sample_instant_radiosity, nullptr, false},
     SamplerEntry{SamplerKind::rejection, "rejection",

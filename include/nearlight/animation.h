@@ -14,7 +14,7 @@
 namespace nearlight {
 
 /// A glTF file whose animations move its camera, its lights or its objects, on devices. Where only the camera
-/// moves, scene, trees and VPLs stay there from one frame to the next, and nothing flickers; otherwise the
+/// moves, scene, trees and VPLs stay there from one frame to the next, and VPLs hardly flicker; otherwise the
 /// file is read again (docs/animation.md). The bits of a frame depend on file and settings, but not on which
 /// frames were made before: they are those of `nearlight render --frames`.
 ///

@@ -11,7 +11,8 @@ This page is made by this command, with nearlight {ours} and Mitsuba {theirs}:
     {command}
 
 Each row is a small scene (`tests/peers/rows/`) that both renderers render: nearlight at its defaults, Mitsuba with the
-integrator that the file names, until its own noise is small. The last column has what nearlight said.
+integrator that the file names, until its own noise is small. The last column has what nearlight said, and for rows that
+deviate the reason, where it is known.
 
 *Ratio* is the mean of nearlight's pictures ÷ the mean of Mitsuba's, with its standard error. *Block* is the largest
 deviation of the mean of 8 × 8 pixels (fewer for sensors, textures and filters), in one colour, after the noise of both
@@ -37,7 +38,8 @@ def write(path, results, command, ours, theirs):
     results = [r for r in results if not r.name.startswith('planted/')]
     text = HEAD.format(command=command, ours=ours, theirs=theirs) + _summary(results)
     for group, rows in groupby(results, key=_group):
-        text += f'\n## {group}\n\n| scene | | ratio | block | |\n|---|---|---|---|---|\n' + ''.join(_line(r) for r in rows)
+        text += (f'\n## {group}\n\n| scene | result | ratio | block | what nearlight said, or why it deviates |\n'
+                 '|---|---|---|---|---|\n' + ''.join(_line(r) for r in rows))
     with open(path, 'w', encoding='utf-8') as file:
         file.write(text)
 
