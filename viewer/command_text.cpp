@@ -61,8 +61,12 @@ void add_sampling(std::string& line, const SamplingSettings& sampling) {
     if (sampling.sampler != otherwise.sampler) {
         line += std::string(" --sampler ") + name_of(sampling.sampler);
     }
-    if (sampling.policy != otherwise.policy) {
-        line += std::string(" --policy ") + name_of(sampling.policy);
+    // Other samplers ignore these two, but their options would be an error.
+    if (sampling.sampler == SamplerKind::close_range) {
+        if (sampling.policy != otherwise.policy) {
+            line += std::string(" --policy ") + name_of(sampling.policy);
+        }
+        add_option(line, "--close-fraction", sampling.close_fraction);
     }
     add_option(line, "--vpls", sampling.vpl_count, otherwise.vpl_count);
     // The sampler `local` ignores cuts, but their options would be an error.
@@ -70,7 +74,6 @@ void add_sampling(std::string& line, const SamplingSettings& sampling) {
         line += " --cuts on";
         add_option(line, "--vpl-set", sampling.set_count);
     }
-    add_option(line, "--close-fraction", sampling.close_fraction);
 }
 
 void add_gather(std::string& line, const GatherSettings& gather) {

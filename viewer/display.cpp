@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "viewer/channels.h"
+#include "viewer/srgb.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -36,8 +37,7 @@ class SrgbTable {
     SrgbTable() {
         for (std::size_t i = 0; i < codes_.size(); ++i) {
             const float linear = static_cast<float>(i) / static_cast<float>(codes_.size() - 1);
-            codes_[i] = to_byte(linear <= 0.0031308f ? linear * 12.92f
-                                                     : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f);
+            codes_[i] = to_byte(srgb_of_linear(linear));
         }
     }
     [[nodiscard]] std::uint8_t code(float linear) const {

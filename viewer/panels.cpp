@@ -109,6 +109,9 @@ void draw_light_settings(ViewerState& state, const PanelFacts& facts, Changes& c
     changes.sampling |= combo("sampler", settings.sampling.sampler, kSamplers);
     if (settings.sampling.sampler == SamplerKind::close_range) {
         changes.sampling |= combo("policy", settings.sampling.policy, kPolicies);
+        changes.sampling |=
+            optional_slider("close fraction", settings.sampling.close_fraction, close_share(facts.frame),
+                            0.0f, 1.0f, "share of the VPLs that lie in the close range");
     }
     changes.sampling |=
         slider("VPLs", settings.sampling.vpl_count, 1, 100'000, "VPLs that a pixel asks about in all");
@@ -123,9 +126,6 @@ void draw_light_settings(ViewerState& state, const PanelFacts& facts, Changes& c
         slider("rays", settings.gather.rays_per_pixel, 1, 4096, "rays of a pixel for the remainder");
     changes.sampling |= ImGui::Checkbox("compensate", &settings.gather.compensate);
     tooltip("rays bring back what the clamp radius takes away, and reflections");
-    changes.sampling |=
-        optional_slider("close fraction", settings.sampling.close_fraction, close_share(facts.frame), 0.0f,
-                        1.0f, "share of the VPLs that lie in the close range");
     changes.sampling |= optional_slider("range", settings.view.range, range, 0.01f, 100.0f,
                                         "distance at which the close range ends, m");
     changes.sampling |=

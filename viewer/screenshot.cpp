@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/screenshot.h"
 
-#include <cmath>
 #include <fstream>
 
 #include "nearlight/error.h"
+#include "viewer/srgb.h"
 
 namespace nearlight::viewer {
 
@@ -13,9 +13,7 @@ void write_screenshot(const std::filesystem::path& file, const ScreenPixels& pix
     Image image{.width = pixels.width, .height = pixels.height, .channels = {"R", "G", "B"}};
     for (std::size_t i = 0; i < pixels.rgba.size(); ++i) {
         if (i % 4 != 3) {
-            const float code = static_cast<float>(pixels.rgba[i]) / 255.0f;
-            image.values.push_back(code <= 0.04045f ? code / 12.92f
-                                                    : std::pow((code + 0.055f) / 1.055f, 2.4f));
+            image.values.push_back(linear_of_srgb(static_cast<float>(pixels.rgba[i]) / 255.0f));
         }
     }
     write_image(file, image);

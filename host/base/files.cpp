@@ -2,6 +2,7 @@
 #include "host/base/files.h"
 
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,14 @@
 #include "nearlight/error.h"
 
 namespace nearlight::core {
+
+std::string lower_case_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return extension;
+}
 
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
@@ -59,12 +68,16 @@ std::string read_bytes(const std::filesystem::path& file) {
     if (const std::string reason = reason_not_to_read(file); !reason.empty()) {
         throw Error(ErrorKind::file, "cannot read '" + file.string() + "': " + reason);
     }
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) {
-        throw Error(ErrorKind::file, "cannot read '" + file.string() + "'");
+    try {
+        std::ifstream stream(file, std::ios::binary);
+        std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+        if (stream) {
+            return bytes;
+        }
+    } catch (const std::ios_base::failure&) {
+        // The iterator throws where the disk fails, whatever the stream's own exceptions are.
     }
-    return bytes;
+    throw Error(ErrorKind::file, "cannot read '" + file.string() + "'");
 }
 
 std::string exact_text(double value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders, text files and the texts of numbers.
+// Folders, names of files, text files and the texts of numbers.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,8 @@
 
 namespace nearlight::core {
 
+/// The extension of a file's name, with its dot and in lower case, because A.EXR is what a.exr is.
+std::string lower_case_extension(const std::filesystem::path& file);
 /// Makes a folder and the missing folders above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
 /// Replaces the whole file, by the parts one after another. After a failure the old file is still there.

@@ -37,7 +37,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_word(std::string_view word, std::span<const std::string> words) {
     // At most a third of the letters may be wrong, because a suggestion misleads beyond that.
-    std::size_t best_distance = word.size() / 3 + 1;
+    std::size_t best_distance = word.size() / 3;
     std::string best;
     for (const std::string& known : words) {
         const std::size_t distance = edit_distance(word, known);

@@ -221,7 +221,7 @@ void add_reference_options(CLI::App& command, CompareSettings& settings) {
         .add_option("--reference-vpls", settings.reference_vpls,
                     "Make the reference with this many VPLs: at least 200000 with instant radiosity, as in "
                     "the paper, or ten times the largest number compared with another sampler")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31u))
+        ->check(CLI::Range(std::size_t{1}, kMaxReferenceVpls))
         ->type_name("N");
     command
         .add_option_function<std::string>(

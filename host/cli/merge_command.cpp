@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
 #include "host/base/words.h"
@@ -57,7 +59,8 @@ void check_merge_options(const MergeOptions& options) {
 }
 
 CheckpointReader open_part(const fs::path& file) {
-    if (file.extension() == ".exr" || file.extension() == ".png") {
+    if (const std::string extension = lower_case_extension(file);
+        extension == ".exr" || extension == ".png") {
         refuse_to_merge(file, "the numbers of pictures are rounded; give the files of --checkpoint");
     }
     return CheckpointReader(file);

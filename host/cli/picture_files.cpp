@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 
+#include "host/base/files.h"
 #include "host/base/words.h"
 #include "host/cli/log.h"
 #include "host/cli/matte_layers.h"
@@ -62,16 +63,9 @@ constexpr std::span<const FilmLayer> optional_layers() {
     return std::span(kFilmLayers).subspan(1);
 }
 
-std::string extension_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 bool has_outputs(const PictureOptions& options, std::string_view extension) {
-    return std::ranges::any_of(options.outputs,
-                               [&](const std::string& file) { return extension_of(file) == extension; });
+    return std::ranges::any_of(
+        options.outputs, [&](const std::string& file) { return lower_case_extension(file) == extension; });
 }
 
 /// Names options that change none of the files.
@@ -90,7 +84,7 @@ void warn_of_idle_options(const PictureOptions& options) {
 
 /// The layers that a file gets, in the order of the rows.
 std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::string& file) {
-    const bool takes_more = extension_of(file) == ".exr";
+    const bool takes_more = lower_case_extension(file) == ".exr";
     std::vector<FilmLayer> chosen;
     for (const FilmLayer& layer : layers_of(options)) {
         const bool wanted = options.layers.empty()
@@ -108,7 +102,7 @@ std::vector<FilmLayer> layers_for(const PictureOptions& options, const std::stri
 }
 
 void check_output(const std::string& file) {
-    if (extension_of(file) != ".exr" && extension_of(file) != ".png") {
+    if (lower_case_extension(file) != ".exr" && lower_case_extension(file) != ".png") {
         throw Error(ErrorKind::invalid_argument,
                     "cannot write '" + file + "': the names of pictures end in .exr or .png");
     }
@@ -235,7 +229,7 @@ Metadata camera_metadata(const SceneCamera& camera) {
 }
 
 bool PictureFiles::waits_for_exposure(const std::string& file) const {
-    return extension_of(file) == ".png" && !look_.exposure;
+    return lower_case_extension(file) == ".png" && !look_.exposure;
 }
 
 /// How an EXR file with these layers is written.
@@ -274,7 +268,7 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
         for (const FilmLayer& layer : layers) {
             std::ranges::move(channel_names(layer), std::back_inserter(names));
         }
-        const bool is_screen = extension_of(file) == ".png";
+        const bool is_screen = lower_case_extension(file) == ".png";
         const ImageWriterOptions writer_options =
             is_screen ? screen_writer_options(look_, *look_.exposure, without_matte_attributes(metadata_))
                       : exr_options(layers);

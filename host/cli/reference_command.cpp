@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/files.h"
 #include "host/base/stopwatch.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -81,7 +82,7 @@ void write_outputs(const ReferenceOptions& options, const Scene& scene, const Im
                    const Metadata& metadata) {
     const ScreenLook look = screen_look(options.screen, scene);
     for (const std::filesystem::path& output : options.outputs) {
-        if (output.extension() == ".exr") {
+        if (lower_case_extension(output) == ".exr") {
             write_image(output, image, {.metadata = metadata});
             continue;
         }
@@ -140,7 +141,7 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
 
 /// The output to resume from: the first one that keeps all layers.
 const std::filesystem::path& output_to_resume(const ReferenceOptions& options) {
-    const auto found = std::ranges::find(options.outputs, ".exr", &std::filesystem::path::extension);
+    const auto found = std::ranges::find(options.outputs, ".exr", lower_case_extension);
     if (found == options.outputs.end()) {
         throw Error(ErrorKind::invalid_argument, "--resume needs an output whose name ends in .exr");
     }

@@ -9,10 +9,9 @@
 
 #include "host/base/printable.h"
 #include "host/base/words.h"
+#include "host/cli/memory_estimate.h"
 #include "host/scene/camera.h"
 #include "host/scene/emitters.h"
-#include "kernels/shared/camera_pass.h"
-#include "kernels/shared/film_layers.h"
 
 namespace nearlight::core {
 namespace {
@@ -277,40 +276,6 @@ std::string text_animations(const Scene& scene) {
 }
 
 }  // namespace
-
-MemoryEstimate estimate_memory(const Scene& scene) {
-    constexpr std::uint64_t kTrianglesPerLeaf = 2;
-    constexpr std::uint64_t kTrianglesPerCut = 20;  // one in so many is cut and is in two leaves
-    const std::uint64_t triangles = scene.triangles.size();
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
-    const std::uint64_t geometry = scene.vertices.size() * sizeof(Vertex) + triangles * sizeof(Triangle);
-    const std::uint64_t entries = triangles + triangles / kTrianglesPerCut;
-    const std::uint64_t trees =
-        entries * (sizeof(BvhTriangle) + sizeof(uint)) + entries / kTrianglesPerLeaf * sizeof(BvhNode);
-    const std::uint64_t textures = texel_count(scene) * sizeof(std::uint32_t);
-    const std::uint64_t environment = scene.environment.radiance.size();
-    constexpr std::uint64_t kReceiverBytes =
-        (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE +
-        sizeof(CameraVertex);
-    constexpr std::uint64_t kRefinementBytes = 2 * (sizeof(CameraLight) + sizeof(uint));
-    constexpr std::uint64_t kPixelBytes =
-        kReceiverBytes + kRefinementBytes +
-        (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
-    MemoryEstimate estimate;
-    estimate.host = {{"geometry", geometry},
-                     {"trees", trees},
-                     {"textures", textures},
-                     {"environment", environment * sizeof(Vec3)},
-                     {"picture", pixels * NEARLIGHT_LAYER_CHANNELS * sizeof(float)}};
-    // On the device, the environment has RGBA pixels and a table for sampling them.
-    estimate.device = {{"geometry", geometry},
-                       {"trees", trees},
-                       {"textures", textures},
-                       {"environment", environment * 5 * sizeof(float)},
-                       {"picture", pixels * kPixelBytes}};
-    return estimate;
-}
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
     std::vector<std::pair<std::string, std::size_t>> counts;

@@ -18,7 +18,7 @@ extern char** environ;
 namespace nearlight::core {
 namespace {
 
-enum class Drawing { done, no_gnuplot, failed };
+enum class Drawing { done, no_data, no_gnuplot, failed };
 
 /// Runs gnuplot on a script, in the script's folder and without output.
 Drawing run_gnuplot(const std::filesystem::path& script) {
@@ -40,6 +40,29 @@ Drawing run_gnuplot(const std::filesystem::path& script) {
     }
     const bool done = waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     return done ? Drawing::done : Drawing::failed;
+}
+
+/// Plot::missing_because.
+const char* reason_of(Drawing drawing) {
+    switch (drawing) {
+        case Drawing::done:
+            return "";
+        case Drawing::no_data:
+            return "no RMSE is above the reference's noise";
+        case Drawing::no_gnuplot:
+            return "gnuplot is not installed";
+        case Drawing::failed:
+            return "gnuplot failed";
+    }
+    return "";
+}
+
+/// What to do about missing plots, as a continuation of the reason.
+std::string advice_on(Drawing drawing, const std::filesystem::path& folder) {
+    if (drawing == Drawing::no_gnuplot) {
+        return "; with it, run `gnuplot *.gp` in " + folder.string();
+    }
+    return drawing == Drawing::failed ? "; see `gnuplot *.gp` in " + folder.string() : "";
 }
 
 /// A line of data with an error bar. On a logarithmic axis, a bar that reaches 0 is cut off at a tenth of the
@@ -136,25 +159,25 @@ std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& se
     const bool has_data =
         std::ranges::any_of(rows, [](const EqualVplsRow& row) { return row.rmse.value > 0.0; });
     std::vector<Plot> plots;
-    std::string trouble = has_data ? "" : "no RMSE is above the reference's noise";
+    Drawing trouble = Drawing::done;
     for (const bool over_seconds : {false, true}) {
         const std::string stem = scene + (over_seconds ? "-rmse-seconds" : "-rmse-vpls");
         Plot plot{.title = scene + ": RMSE over " + (over_seconds ? "seconds" : "VPLs"),
                   .script = folder / (stem + ".gp")};
         write_text(plot.script, plot_script(plot.title, stem, over_seconds, settings, rows));
-        const Drawing drawing = has_data ? run_gnuplot(plot.script) : Drawing::failed;
+        const Drawing drawing = has_data ? run_gnuplot(plot.script) : Drawing::no_data;
+        plot.missing_because = reason_of(drawing);
         if (drawing == Drawing::done) {
             plot.svg = folder / (stem + ".svg");
             plot.png = folder / (stem + ".png");
-        } else if (has_data) {
-            trouble = drawing == Drawing::no_gnuplot
-                          ? "gnuplot is not installed; with it, run `gnuplot *.gp` in " + folder.string()
-                          : "gnuplot failed; see `gnuplot " + plot.script.string() + "`";
+        } else {
+            trouble = drawing;
         }
         plots.push_back(std::move(plot));
     }
-    if (!trouble.empty()) {
-        say_warning("the plots of scene '" + scene + "' are missing: " + trouble);
+    if (trouble != Drawing::done) {
+        say_warning("the plots of scene '" + scene + "' are missing: " + reason_of(trouble) +
+                    advice_on(trouble, folder));
     }
     return plots;
 }

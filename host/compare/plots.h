@@ -13,12 +13,13 @@ namespace nearlight::core {
 
 struct Plot {
     std::string title;
-    std::filesystem::path script;  ///< contains its data; `gnuplot FILE` in its folder draws the plot again
-    std::filesystem::path svg{};   ///< empty if gnuplot is missing or failed
-    std::filesystem::path png{};   ///< empty if gnuplot is missing or failed
+    std::filesystem::path script;   ///< contains its data; `gnuplot FILE` in its folder draws the plot again
+    std::filesystem::path svg{};    ///< empty if the plot is missing
+    std::filesystem::path png{};    ///< empty if the plot is missing
+    std::string missing_because{};  ///< reason, as the end of a sentence; empty if the plot is there
 };
 
-/// Writes the scripts to `folder` and runs them. Warns once if gnuplot is missing.
+/// Writes the scripts to `folder` and runs them. Warns once if plots are missing.
 std::vector<Plot> make_plots(const std::string& scene, const CompareSettings& settings,
                              std::span<const EqualVplsRow> rows, const std::filesystem::path& folder);
 

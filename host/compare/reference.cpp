@@ -13,6 +13,7 @@
 #include "host/base/message.h"
 #include "host/base/stopwatch.h"
 #include "host/compare/pictures.h"
+#include "host/compare/settings.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
 #include "nearlight/error.h"
@@ -25,8 +26,6 @@ constexpr std::size_t kPassSamples = 256;
 /// Samples per pixel of a pass of path tracing are rounded up to a multiple of this: whole batches, and
 /// enough of them to estimate the noise.
 constexpr std::size_t kSampleUnit = 16;
-/// Number of passes of a reference of VPLs, whose differences give an estimate of its noise.
-constexpr std::size_t kVplPasses = 8;
 
 /// Sums of values, squares and variances over passes.
 class ReferenceSums {
@@ -132,7 +131,7 @@ std::uint64_t identity(const Reference& reference) {
 
 std::vector<std::size_t> pass_sizes(const ReferenceSpec& spec, std::size_t samples) {
     const bool traced = !spec.sampler;
-    const std::size_t size = traced ? kPassSamples : divide_rounding_up(samples, kVplPasses);
+    const std::size_t size = traced ? kPassSamples : divide_rounding_up(samples, kReferencePasses);
     std::vector<std::size_t> sizes(samples / size, size);
     if (const std::size_t rest = samples % size; rest > 0) {
         sizes.push_back(traced ? round_up_to_multiple(rest, kSampleUnit) : rest);

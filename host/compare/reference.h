@@ -35,7 +35,7 @@ struct Reference {
     double seconds = 0;       ///< seconds that this run took to make it; 0 if everything was stored
 };
 
-/// The reference's samples in words, such as "1024 samples a pixel" or "300000 VPLs".
+/// The reference's samples in words, such as "1024 samples per pixel" or "300000 VPLs".
 std::string samples_text(const Reference& reference);
 
 /// A hash of the picture's bits, because errors against different references cannot be compared.

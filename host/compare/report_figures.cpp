@@ -61,9 +61,12 @@ void write_plots(HtmlWriter& html, const SceneComparison& scene) {
     html.open("div", {{"class", "plots"}});
     for (const Plot& plot : scene.plots) {
         if (plot.svg.empty()) {
-            html.element("p", plot.title +
-                                  ": the plot is missing because gnuplot is not installed; its script is " +
-                                  plot.script.filename().string() + " in the folder plots.");
+            const std::string script =
+                plot.script.empty()
+                    ? ""
+                    : "; its script is " + plot.script.filename().string() + " in the folder plots";
+            html.element("p",
+                         plot.title + ": the plot is missing because " + plot.missing_because + script + ".");
         } else {
             html.open("div", {{"class", "plot"}})
                 .markup(inline_svg(read_bytes(plot.svg), plot.title))

@@ -10,8 +10,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kMaxVpls = 50'000'000;
-
 template <typename Number>
 std::optional<Number> whole_number(const std::string& text) {
     Number value{};

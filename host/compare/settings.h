@@ -59,6 +59,12 @@ struct CompareSettings {
 inline constexpr float kDefaultClampFraction = 0.025f;
 /// The paper calls its references "densely sampled: number of VPLs above 200k".
 inline constexpr std::size_t kMinReferenceVpls = 200'000;
+/// Maximum number of VPLs of a picture.
+inline constexpr uint kMaxVpls = 50'000'000;
+/// Number of passes of a reference of VPLs, whose differences give an estimate of its noise.
+inline constexpr std::size_t kReferencePasses = 8;
+/// Maximum number of VPLs of a reference, whose passes are pictures of their own.
+inline constexpr std::size_t kMaxReferenceVpls = kReferencePasses * kMaxVpls;
 /// Minimum number of VPLs of a reference by another sampler, as a multiple of the largest number that is
 /// compared. The reference then has a third of the noise.
 inline constexpr std::size_t kReferenceExcess = 10;

@@ -54,9 +54,7 @@ Image read(const fs::path& file, bool decode_srgb) {
 }
 
 ImageFormat format_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case_extension(file);
     if (extension == ".exr") {
         return ImageFormat::exr;
     }

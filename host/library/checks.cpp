@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/library/checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -98,6 +99,16 @@ void check(const AnimationOptions& options) {
 
 void check_frame(int frame) {
     check_range("frame", frame, 0, kMaxFrame);
+}
+
+void check_values(const std::string& problem, const Image& image) {
+    const std::size_t count = static_cast<std::size_t>(std::max(image.width, 0)) *
+                              static_cast<std::size_t>(std::max(image.height, 0)) * image.channels.size();
+    if (image.values.size() != count) {
+        throw Error(ErrorKind::invalid_argument,
+                    problem + ": the image has " + std::to_string(image.values.size()) +
+                        " values, which is not its width times its height times its channels");
+    }
 }
 
 void check_points(std::span<const Vec3> points, std::span<const Vec3> normals) {

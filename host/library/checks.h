@@ -3,7 +3,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 
+#include "nearlight/image.h"
 #include "nearlight/session.h"
 
 namespace nearlight {
@@ -17,6 +19,10 @@ void check(const RenderSettings& settings);
 void check(const AnimationOptions& options);
 /// The number of a frame.
 void check_frame(int frame);
+
+/// Throws Error(ErrorKind::invalid_argument), whose message begins with `problem`, unless the image has as
+/// many values as its width times its height times its channels.
+void check_values(const std::string& problem, const Image& image);
 
 /// Throws Error(ErrorKind::invalid_argument) unless there are as many normals as points, points are finite
 /// and normals have length 1.

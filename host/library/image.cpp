@@ -8,6 +8,7 @@
 #include "host/image/exposure_meter.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
+#include "host/library/checks.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
@@ -15,11 +16,6 @@ namespace {
 
 std::string_view channel_part(std::string_view channel) {
     return channel.substr(channel.rfind('.') + 1);
-}
-
-std::size_t value_count(const Image& image) {
-    return static_cast<std::size_t>(std::max(image.width, 0)) *
-           static_cast<std::size_t>(std::max(image.height, 0)) * image.channels.size();
 }
 
 /// Copies the channels with the indices `selected`, in that order.
@@ -48,11 +44,7 @@ Image public_image(core::Image image) {
 /// One layer of a picture, for the metrics. They blame files for what is missing, callers of the library have
 /// none.
 core::Image color_layer(const Image& image, std::string_view name, const char* which) {
-    if (image.channels.empty() || image.values.size() != value_count(image)) {
-        throw Error(ErrorKind::invalid_argument,
-                    std::string("the ") + which + " has " + std::to_string(image.values.size()) +
-                        " values, which is not its width times its height times its channels");
-    }
+    check_values(std::string("cannot compare the ") + which, image);
     Image chosen = layer(image, name);
     core::Image result{chosen.width, chosen.height, std::move(chosen.channels), std::move(chosen.values)};
     if (!core::has_color_layer(result, "")) {
@@ -113,12 +105,7 @@ Image layer(const Image& image, std::string_view name) {
 }
 
 void write_image(const std::filesystem::path& file, const Image& image, const WriteOptions& options) {
-    if (image.values.size() != value_count(image)) {
-        throw Error(ErrorKind::invalid_argument,
-                    "cannot write '" + file.string() + "': the image has " +
-                        std::to_string(image.values.size()) +
-                        " values, which is not its width times its height times its channels");
-    }
+    check_values("cannot write '" + file.string() + "'", image);
     core::ImageWriter writer(file, image.width, image.height, image.channels,
                              {.metadata = {}, .exposure = options.exposure, .curve = options.tone_curve});
     writer.write_rows(image.values);

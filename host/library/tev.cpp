@@ -4,6 +4,8 @@
 #include <map>
 
 #include "host/image/tev_link.h"
+#include "host/library/checks.h"
+#include "nearlight/error.h"
 
 namespace nearlight {
 
@@ -20,6 +22,12 @@ TevLink::TevLink(TevLink&&) noexcept = default;
 TevLink& TevLink::operator=(TevLink&&) noexcept = default;
 
 void TevLink::show(const std::string& name, const Image& image) {
+    const std::string problem = "cannot show '" + name + "'";
+    if (image.width < 1 || image.height < 1 || image.channels.empty()) {
+        throw Error(ErrorKind::invalid_argument,
+                    problem + ": an image needs at least one pixel and one channel");
+    }
+    check_values(problem, image);
     const auto known = state_->shown.find(name);
     if (known == state_->shown.end() || known->second.width != image.width ||
         known->second.height != image.height || known->second.channels != image.channels) {

@@ -2,9 +2,9 @@
 #include "host/scene/scene_loader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
+#include "host/base/files.h"
 #include "host/scene/gltf/gltf_loader.h"
 #include "host/scene/mitsuba/mitsuba_loader.h"
 #include "host/scene/obj/obj_loader.h"
@@ -15,14 +15,6 @@
 
 namespace nearlight::core {
 namespace {
-
-std::string lower_case_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return extension;
-}
 
 struct Loader {
     std::string_view extension;

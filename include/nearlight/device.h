@@ -55,8 +55,10 @@ class NEARLIGHT_API Devices {
     ///  - "cpu", "gpu", an index, or a part of a name in any case takes the first device that matches.
     ///  - "all" takes every usable device.
     ///  - "X/N" splits each device of the item X into N equal parts, which are devices of their own.
-    ///  - "X/N.K" takes the part K of these, counted from 0. Throws Error: ErrorKind::no_device if an item
-    ///    matches no device (the message lists the devices), or if a device does not start.
+    ///  - "X/N.K" takes the part K of these, counted from 0.
+    ///
+    /// Throws Error: ErrorKind::no_device if an item matches no device (the message lists the devices), or if
+    /// a device does not start.
     static Devices choose(const std::string& choice = "auto", const DeviceOptions& options = {});
 
     /// Facts about the devices, one or more, in the order of the choice.

@@ -21,7 +21,8 @@ class NEARLIGHT_API TevLink {
     TevLink& operator=(TevLink&&) noexcept;
 
     /// Shows a picture under a name. A later picture of the same name, size and channels replaces its pixels.
-    /// Throws Error: ErrorKind::failure if tev no longer takes anything.
+    /// Throws Error: ErrorKind::invalid_argument for an image without pixels or channels, or whose values do
+    /// not fit its size; ErrorKind::failure if tev no longer takes anything.
     void show(const std::string& name, const Image& image);
 
   private:

@@ -85,12 +85,18 @@ SharedImage image_of(const py::object& values, const std::optional<std::vector<s
                         "; it must be (height, width) or (height, width, channels)",
                     "values");
     }
+    if (floats.size() == 0) {
+        throw Error(ErrorKind::invalid_argument,
+                    "values have the shape " + shown(floats.attr("shape")) +
+                        "; an image needs at least one pixel and one channel",
+                    "values");
+    }
     const py::ssize_t count = floats.ndim() == 3 ? floats.shape(2) : 1;
     auto image = std::make_shared<Image>();
     image->width = static_cast<int>(floats.shape(1));
     image->height = static_cast<int>(floats.shape(0));
     image->channels = channels ? *channels : default_channels(count);
-    if (std::ssize(image->channels) != count || floats.size() == 0) {
+    if (std::ssize(image->channels) != count) {
         throw Error(ErrorKind::invalid_argument,
                     "values of the shape " + shown(floats.attr("shape")) + " do not fit " +
                         std::to_string(image->channels.size()) + " channels",

@@ -34,6 +34,8 @@ TEST(Suggestion, NearestWord) {
     EXPECT_EQ(nearest_word("--out", options), "--output");
     EXPECT_EQ(nearest_word("--tone", options), "--tonemap");
     EXPECT_EQ(nearest_word("--tme", options), "--time");
+    EXPECT_EQ(nearest_word("--u", options), "--up");
+    EXPECT_EQ(nearest_word("--x", options), "");
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
     expect_usage_error("--crop 1,2,3", "--crop");
     expect_usage_error("--crop 300,200,100,100", "--crop");
     expect_usage_error("--reference-vpls 100", "200000");
+    expect_usage_error("--reference-vpls 400000001", "no whole number from 1 to 400000000");
     expect_usage_error("--reference-sampler metropolis", "--reference-vpls");
     expect_usage_error("--reference-sampler metropolise --reference-vpls 500000", "choose one of: ");
     expect_usage_error(quoted(scene_), "twice");

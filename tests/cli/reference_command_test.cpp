@@ -95,6 +95,17 @@ TEST_F(Reference, ResumingRefinesWhatIsThere) {
     EXPECT_EQ(nlohmann::json::parse(enough.output)["samples_per_pixel"], 24);
 }
 
+/// A.EXR is an EXR file, too: it has all attributes, and no exposure is chosen for it.
+TEST_F(Reference, ExtensionsMayBeInCapitals) {
+    const std::filesystem::path capitals = folder_ / "reference.EXR";
+    const std::string command = "reference --json --resume " + quoted(scene_) + " -o " + quoted(capitals);
+    ASSERT_EQ(run_program(command + " --spp 4").exit_code, 0);
+    EXPECT_FALSE(read_metadata(capitals).contains("nearlight:exposure"));
+    const ProgramResult result = run_program(command + " --spp 8");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(nlohmann::json::parse(result.output)["samples_before"], 4);
+}
+
 TEST_F(Reference, ResumingKeepsItsBatches) {
     ASSERT_EQ(run_program("reference --spp 16 " + files()).exit_code, 0);
     ASSERT_EQ(run_program("reference --spp 33 --resume " + files()).exit_code,

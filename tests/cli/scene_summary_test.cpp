@@ -65,6 +65,28 @@ TEST(SceneSummary, MemoryOfAllParts) {
     EXPECT_EQ(scene_summary_json(scene)["memory_bytes"]["device"]["picture"], 2 * before);
 }
 
+/// Half floats take two words a texel, and what vertices have for textures counts with them.
+TEST(SceneSummary, MemoryOfTexturesOfAllKinds) {
+    Scene scene = one_lamp();
+    scene.images.push_back({"wood", 10, 10, NEARLIGHT_TEXELS_SRGB8, std::vector<std::uint32_t>(100)});
+    scene.images.push_back({"glow", 10, 10, NEARLIGHT_TEXELS_HALF, std::vector<std::uint32_t>(200)});
+    scene.vertex_colors.resize(4);
+    scene.second_uvs.resize(4);
+    const nlohmann::ordered_json json = scene_summary_json(scene);
+    EXPECT_EQ(json["textures"]["texels"], 200);
+    EXPECT_EQ(json["memory_bytes"]["host"]["textures"], 400 + 800 + 4 * 12 + 4 * 8);
+    EXPECT_EQ(json["memory_bytes"]["device"]["textures"], 400 + 800 + 4 * 12 + 4 * 8);
+}
+
+/// A filter that reaches two pixels beyond its own brings light to 25 pixels in 5 rows.
+TEST(SceneSummary, MemoryOfSplats) {
+    Scene scene = one_lamp();
+    const std::uint64_t without = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
+    scene.camera.filter = {.kind = FilterKind::gaussian, .radius = 2.0};
+    const std::uint64_t with = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
+    EXPECT_EQ(with - without, 100 * 50 * (25 * (48 + 2 * 32) + 5 * 80));
+}
+
 TEST(SceneSummary, TextTellsTheSame) {
     const std::string text = scene_summary_text(one_lamp());
     for (const char* part : {"lamp/scene.xml", "2 triangles, 4 vertices", "2 diffuse, 1 thin glass",

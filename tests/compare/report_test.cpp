@@ -12,9 +12,11 @@
 
 #include "host/base/files.h"
 #include "host/compare/pictures.h"
+#include "host/compare/plots.h"
 #include "host/compare/report_csv.h"
 #include "host/image/image_io.h"
 #include "tests/compare/methods.h"
+#include "tests/image/environment_variable.h"
 #include "tests/image/temporary_folder.h"
 
 namespace nearlight::core {
@@ -102,8 +104,10 @@ class Report : public testing::Test {
         scene.figures.vpls = {{default_method(), 98, 50, 40, picture("v")}};
         write_text(folder_ / "plot.svg",
                    "<svg xmlns=\"http://www.w3.org/2000/svg\"><path stroke='black'/></svg>");
-        scene.plots = {{.title = "RMSE", .script = folder_ / "plot.gp", .svg = folder_ / "plot.svg"},
-                       {.title = "missing", .script = folder_ / "missing.gp"}};
+        scene.plots = {
+            {.title = "RMSE", .script = folder_ / "plot.gp", .svg = folder_ / "plot.svg"},
+            {.title = "missing", .script = folder_ / "missing.gp", .missing_because = "gnuplot failed"},
+            {.title = "unwritten", .script = {}, .missing_because = "the disk is full"}};
         return scene;
     }
     [[nodiscard]] std::string html() const {
@@ -284,7 +288,11 @@ TEST_F(Report, HtmlIsWellFormedAndEscaped) {
 
 TEST_F(Report, HtmlSaysWhatIsMissingAndWhatNeverHappens) {
     const std::string page = html();
-    EXPECT_NE(page.find("missing.gp"), std::string::npos);
+    EXPECT_NE(
+        page.find("missing: the plot is missing because gnuplot failed; its script is missing.gp in the "
+                  "folder plots."),
+        std::string::npos);
+    EXPECT_NE(page.find("unwritten: the plot is missing because the disk is full.</p>"), std::string::npos);
     EXPECT_NE(page.find(">never</td>"), std::string::npos);
     EXPECT_NE(page.find(">never in 1 of 1</td>"), std::string::npos);
     EXPECT_NE(page.find("<td class=\"name\">–</td><td>2.00</td>"), std::string::npos);  // RMSE ÷ baseline
@@ -299,6 +307,35 @@ TEST_F(Report, HtmlSaysWhatIsMissingAndWhatNeverHappens) {
 TEST_F(Report, APictureThatIsGoneIsAnError) {
     std::filesystem::remove(folder_ / "o.png");
     EXPECT_THROW(write_report(comparison_, settings_), Error);
+}
+
+/// The plots of a row with this RMSE, where `gnuplot` is what the script says, or not there if it is empty.
+std::vector<Plot> plots_of(double rmse, const std::string& gnuplot) {
+    const TemporaryFolder folder;
+    const EnvironmentVariable path("PATH", folder.path().string());
+    if (!gnuplot.empty()) {
+        write_text(folder / "gnuplot", gnuplot);
+        std::filesystem::permissions(folder / "gnuplot", std::filesystem::perms::owner_all);
+    }
+    CompareSettings settings;
+    settings.methods = {kWalks};
+    const std::vector<EqualVplsRow> rows{
+        {.method = kWalks, .vpls = 100, .gathered_vpls = 98, .rmse = {rmse, 0.1, 0.0, 0.7}}};
+    return make_plots("desk", settings, rows, folder / "plots");
+}
+
+TEST(Plots, SayWhyTheyAreMissing) {
+    const auto reason = [](double rmse, const std::string& gnuplot) {
+        const std::vector<Plot> plots = plots_of(rmse, gnuplot);
+        EXPECT_EQ(plots.size(), 2u);
+        EXPECT_EQ(plots[0].svg.empty(), !plots[0].missing_because.empty());
+        EXPECT_EQ(plots[0].missing_because, plots[1].missing_because);
+        return plots[0].missing_because;
+    };
+    EXPECT_EQ(reason(0.5, ""), "gnuplot is not installed");
+    EXPECT_EQ(reason(0.5, "#!/bin/sh\nexit 1\n"), "gnuplot failed");
+    EXPECT_EQ(reason(0.5, "#!/bin/sh\nexit 0\n"), "");
+    EXPECT_EQ(reason(0.0, "#!/bin/sh\nexit 0\n"), "no RMSE is above the reference's noise");
 }
 
 TEST(PlotScript, HoldsItsOwnData) {

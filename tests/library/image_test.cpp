@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "nearlight/error.h"
+#include "nearlight/tev.h"
+#include "tests/support/tev_port.h"
 
 namespace nearlight {
 namespace {
@@ -123,6 +125,31 @@ TEST_F(ImageFiles, WhatCannotBeWrittenIsAnError) {
     cut.values.pop_back();
     EXPECT_EQ(kind("a.exr", cut), ErrorKind::invalid_argument);
     EXPECT_THROW(read_image(file("a.exr")), Error);
+}
+
+TEST(TevLink, WhatCannotBeShownIsAnError) {
+    core::test::TevPort port;
+    TevLink link(port.address());
+    const auto refusal = [&](const Image& image) -> std::string {
+        try {
+            link.show("room", image);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    Image narrow = two_pixels();
+    narrow.width = 0;
+    EXPECT_THAT(refusal(narrow), HasSubstr("cannot show 'room': an image needs at least one pixel"));
+    Image nameless = two_pixels();
+    nameless.channels.clear();
+    EXPECT_THAT(refusal(nameless), HasSubstr("and one channel"));
+    EXPECT_THAT(refusal({.width = 1, .height = -1, .channels = {"Y"}}), HasSubstr("at least one pixel"));
+    Image cut = two_pixels();
+    cut.values.pop_back();
+    EXPECT_THAT(refusal(cut), HasSubstr("cannot show 'room': the image has 7 values"));
+    EXPECT_NO_THROW(link.show("room", two_pixels()));
 }
 
 /// Half the light in one pixel of two: the mean falls by a sixth, since the other is twice as bright.

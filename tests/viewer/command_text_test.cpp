@@ -42,6 +42,22 @@ TEST(CommandText, NamesTheRoulette) {
               "nearlight render scene.xml --roulette 0.5 --exposure=0 --tonemap linear -o a.exr");
 }
 
+/// `nearlight render` refuses a policy and a close fraction with the other samplers, which the panel can
+/// choose after both were set.
+TEST(CommandText, TheSamplerCloseRangeAloneHasAPolicyAndACloseFraction) {
+    for (const SamplerKind sampler :
+         {SamplerKind::close_range, SamplerKind::instant_radiosity, SamplerKind::rejection,
+          SamplerKind::metropolis, SamplerKind::bidirectional, SamplerKind::local}) {
+        RenderSettings settings;
+        settings.sampling = {.sampler = sampler, .policy = Policy::paper, .close_fraction = 0.5f};
+        const bool takes_both = sampler == SamplerKind::close_range;
+        const std::string own = takes_both ? " --policy paper --close-fraction 0.5"
+                                           : std::string(" --sampler ") + name_of(sampler);
+        EXPECT_EQ(command_text(kScene, settings, {}, "a.exr"),
+                  "nearlight render scene.xml" + own + " --exposure=0 --tonemap linear -o a.exr");
+    }
+}
+
 /// `nearlight render` refuses cuts with this sampler, which the panel can choose.
 TEST(CommandText, TheSamplerLocalHasNoCuts) {
     RenderSettings settings;
