@@ -39,17 +39,18 @@ class CornerSets {
     std::vector<uint> parents_;
 };
 
-/// A side of a triangle: the places at its ends in order, and its corners there.
+/// A side of a triangle: the numbers of the places at its ends, the smaller one first, and the triangle's
+/// corners there.
 struct Side {
-    uint near_place, far_place;
-    uint near_corner, far_corner;
+    uint low_place, high_place;
+    uint low_corner, high_corner;
 
     [[nodiscard]] bool is_at(const Side& other) const {
-        return near_place == other.near_place && far_place == other.far_place;
+        return low_place == other.low_place && high_place == other.high_place;
     }
     bool operator<(const Side& other) const {
-        return std::tie(near_place, far_place, near_corner) <
-               std::tie(other.near_place, other.far_place, other.near_corner);
+        return std::tie(low_place, high_place, low_corner) <
+               std::tie(other.low_place, other.high_place, other.low_corner);
     }
 };
 
@@ -60,13 +61,13 @@ std::vector<Side> sides_of(const Mesh& mesh, std::span<const uint> places, std::
     std::vector<Side> sides;
     for (uint t = 0; t < mesh.triangles.size(); ++t) {
         for (uint k = 0; k < 3 && groups[t] != kFlat && !is_zero(face_normals[t]); ++k) {
-            Side side{.near_place = places[mesh.triangles[t][k]],
-                      .far_place = places[mesh.triangles[t][(k + 1) % 3]],
-                      .near_corner = 3 * t + k,
-                      .far_corner = 3 * t + (k + 1) % 3};
-            if (side.near_place > side.far_place) {
-                std::swap(side.near_place, side.far_place);
-                std::swap(side.near_corner, side.far_corner);
+            Side side{.low_place = places[mesh.triangles[t][k]],
+                      .high_place = places[mesh.triangles[t][(k + 1) % 3]],
+                      .low_corner = 3 * t + k,
+                      .high_corner = 3 * t + (k + 1) % 3};
+            if (side.low_place > side.high_place) {
+                std::swap(side.low_place, side.high_place);
+                std::swap(side.low_corner, side.high_corner);
             }
             sides.push_back(side);
         }
@@ -99,9 +100,9 @@ CornerSets joined_corners(const Mesh& mesh, std::span<const uint> places, std::s
         const Side& a = sides[i];
         const std::size_t end = std::min(sides.size(), i + kMaxTogether);
         for (std::size_t j = i + 1; j < end && a.is_at(sides[j]); ++j) {
-            if (is_smooth(a.near_corner / 3, sides[j].near_corner / 3)) {
-                sets.join(a.near_corner, sides[j].near_corner);
-                sets.join(a.far_corner, sides[j].far_corner);
+            if (is_smooth(a.low_corner / 3, sides[j].low_corner / 3)) {
+                sets.join(a.low_corner, sides[j].low_corner);
+                sets.join(a.high_corner, sides[j].high_corner);
             }
         }
     }

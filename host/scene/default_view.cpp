@@ -40,19 +40,19 @@ EnvironmentLight neutral_sky() {
     return sky;
 }
 
-/// Where the camera's lines of sight along one side of the frame and its opposite must be to let in all
-/// points: at the distance `reach` from the target, `shift` beside it.
+/// What must be seen on both sides of the frame's middle, in one direction: points at the right and left, or
+/// above and below. The camera must stand at the distance reach() from the target, moved by shift().
 struct Fit {
-    float far_side = -INFINITY;
-    float near_side = -INFINITY;
+    float positive_side = -INFINITY;
+    float negative_side = -INFINITY;
 
     /// A point `across` to one side and `along` behind the target; the frame's slope is that of its side.
     void add(float across, float along, float slope) {
-        far_side = std::max(far_side, across / slope - along);
-        near_side = std::max(near_side, -across / slope - along);
+        positive_side = std::max(positive_side, across / slope - along);
+        negative_side = std::max(negative_side, -across / slope - along);
     }
-    [[nodiscard]] float reach() const { return 0.5f * (far_side + near_side); }
-    [[nodiscard]] float shift(float slope) const { return 0.5f * slope * (far_side - near_side); }
+    [[nodiscard]] float reach() const { return 0.5f * (positive_side + negative_side); }
+    [[nodiscard]] float shift(float slope) const { return 0.5f * slope * (positive_side - negative_side); }
 };
 
 }  // namespace

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading whole files, and paths that files name.
+// Reading files, whole or in parts, and paths that files name.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace nearlight::core {
 
 /// Reads the whole file. Throws Error(ErrorKind::file) if it is missing, unreadable or no regular file.
 std::string read_file_text(const std::filesystem::path& file);
+
+/// A file of which only parts are read.
+class FileParts {
+  public:
+    /// Throws Error(ErrorKind::file) if the file is missing, unreadable or no regular file.
+    explicit FileParts(const std::filesystem::path& file);
+
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    /// `count` bytes from `begin` on; fewer where the file ends before. Throws Error(ErrorKind::file).
+    std::string read(std::uint64_t begin, std::uint64_t count);
+
+  private:
+    std::filesystem::path file_;
+    std::ifstream stream_;
+    std::uint64_t size_ = 0;
+};
 
 /// The path of the file `name` in a folder, with backslashes allowed as separators. An absolute name stays.
 std::filesystem::path path_in_folder(const std::filesystem::path& folder, std::string name);

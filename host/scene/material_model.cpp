@@ -36,15 +36,14 @@ Material wrapper_material(uint model, Parameter parameter, uint child) {
     return material;
 }
 
-/// A plastic with the same coat, whose integrals over microfacets need not be found again; null if there is
-/// none. Varnish, within which light is not reflected, lacks one of the integrals.
+/// A plastic with the same coat, whose integrals over microfacets can be taken over; null if there is none.
+/// Varnish (no internal reflectance) has not computed all of them, so it is passed over.
 const Material* find_coat(std::span<const Material> materials, const Material& plastic) {
     const auto facets = [](const Material& m) { return m.flags & NEARLIGHT_MATERIAL_BECKMANN; };
     const auto twin = std::find_if(materials.begin(), materials.end(), [&](const Material& other) {
         return other.model == NEARLIGHT_BSDF_PLASTIC && other.internal_reflectance > 0.0f &&
-               other.roughness.texture < 0 &&
-               other.roughness.value.x == plastic.roughness.value.x && other.eta.x == plastic.eta.x &&
-               facets(other) == facets(plastic);
+               other.roughness.texture < 0 && other.roughness.value.x == plastic.roughness.value.x &&
+               other.eta.x == plastic.eta.x && facets(other) == facets(plastic);
     });
     return twin == materials.end() ? nullptr : &*twin;
 }

@@ -89,9 +89,7 @@ PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view t
             break;
         }
         std::string line(text.substr(begin, end - begin));
-        if (!line.empty() && line.back() == '\r') {
-            line.pop_back();
-        }
+        line.erase(line.find_last_not_of(" \t\r") + 1);
         begin = end + 1;
         if (line == "end_header") {
             header.size = begin;
@@ -122,7 +120,9 @@ double PlyReader::read_word() {
         fail_ply(file_, "PLY file is truncated");
     }
     double value = 0.0;
-    const auto [end, error] = std::from_chars(data_.data(), data_.data() + data_.size(), value);
+    const bool has_plus = data_[0] == '+' && !data_.substr(1).starts_with('-');
+    const auto [end, error] =
+        std::from_chars(data_.data() + (has_plus ? 1 : 0), data_.data() + data_.size(), value);
     if (error != std::errc()) {
         fail_ply(file_, "PLY file has '" + std::string(data_.substr(0, data_.find_first_of(" \t\r\n"))) +
                             "' where a number should be");

@@ -40,8 +40,8 @@ struct LoadOptions {
 /// is not there, or as apply_overrides().
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// The camera that a scene, which was loaded at some moment, has at that of `options`, which are else those
-/// that it was loaded with; nothing if surfaces or lights are elsewhere then. Takes less time than to load
+/// The camera that the file of `scene` has at the moment of `options`; all other options are those that the
+/// scene was loaded with. Nothing if surfaces or lights stand elsewhere then. Takes less time than loading
 /// the scene. Throws as load_scene().
 std::optional<SceneCamera> camera_at(const Scene& scene, const LoadOptions& options);
 

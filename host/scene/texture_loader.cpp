@@ -7,6 +7,7 @@
 
 #include "host/base/half.h"
 #include "host/image/image_io.h"
+#include "host/scene/material_model.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -43,6 +44,18 @@ std::size_t pack_halves(const TexelReader& reader, std::size_t count, bool is_si
 }
 
 }  // namespace
+
+bool TextureLoader::can_read(const ImageSource& image) {
+    try {
+        reader_.read(image);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::file) {
+            throw;
+        }
+        return false;
+    }
+    return true;
+}
 
 int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file,
                         int line) {

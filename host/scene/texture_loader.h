@@ -27,6 +27,10 @@ class TextureLoader {
     /// Images that will probably be loaded, in about this order (ImageReader::expect).
     void expect(std::vector<ImageSource> images) { reader_.expect(std::move(images)); }
 
+    /// Whether the image can be read; one that can is not read again if it is loaded next. Throws Error that
+    /// is not of the kind file.
+    bool can_read(const ImageSource& image);
+
     /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read.
     int load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file, int line);
 

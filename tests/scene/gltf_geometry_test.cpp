@@ -179,6 +179,16 @@ TEST_F(GltfLoader, TwoSetsOfTextureCoordinates) {
     EXPECT_EQ(load().vertices.at(0).u, 0.25f);
     gltf_.material()["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
     EXPECT_THAT(error(), HasSubstr("more than two sets of texture coordinates"));
+    gltf_.material()["emissiveFactor"] = {0, 0, 0};
+    EXPECT_EQ(load().triangles.size(), 2u) << "nobody sees the emissive texture";
+    for (const std::string name : {"transmission", "clearcoat"}) {
+        json& extension = gltf_.material()["extensions"]["KHR_materials_" + name];
+        extension = {{name + "Factor", 0}, {name + "Texture", {{"index", 0}, {"texCoord", 7}}}};
+        EXPECT_EQ(load().triangles.size(), 2u) << name;
+        extension[name + "Factor"] = 0.5;
+        EXPECT_THAT(error(), HasSubstr("more than two sets of texture coordinates")) << name;
+        extension[name + "Factor"] = 0;
+    }
 }
 
 TEST_F(GltfLoader, CoordinatesThatNoMeshHasAreZeroForEveryVertex) {

@@ -2,6 +2,7 @@
 #include "host/scene/gltf/gltf_loader.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <numbers>
@@ -266,6 +267,10 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
                 HasSubstr("not finite"));
     EXPECT_THAT(with([](json& root) { root["meshes"][0]["primitives"][0]["material"] = 9; }),
                 HasSubstr("material 9"));
+    EXPECT_THAT(with([](json& root) {
+                    root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = 99;
+                }),
+                HasSubstr("the file refers to accessor 99"));
     EXPECT_THAT(with([](json& root) { root["accessors"][0]["count"] = 5; }), HasSubstr("beyond the end"));
     EXPECT_THAT(with([](json& root) { root["accessors"][0]["count"] = 4000000000000; }),
                 HasSubstr("accessor"));
@@ -288,6 +293,24 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
                     root["nodes"] = {{"name", json::object()}};
                 }),
                 HasSubstr("is of glTF 1"));
+}
+
+/// A pipe into which nothing is written would keep its reader waiting for ever.
+TEST_F(GltfLoader, ImagesThatNoMaterialAsksForAreNotRead) {
+    ASSERT_EQ(mkfifo(files_.path("a pipe.png").c_str(), 0600), 0);
+    gltf_.root["images"] = {{{"uri", "a%20pipe.png"}}};
+    gltf_.root["textures"] = {{{"source", 0}}};
+    EXPECT_EQ(load().triangles.size(), 2u);
+    gltf_.material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    EXPECT_TRUE(has_note(load(), "it is a pipe"));
+}
+
+TEST_F(GltfLoader, ABufferMayBeInTheFileOfAnImage) {
+    json whole = gltf_.root;
+    files_.write("both.png", gltf_.bytes);
+    whole["buffers"] = {{{"byteLength", gltf_.bytes.size()}, {"uri", "both.png"}}};
+    whole["images"] = {{{"uri", "both.png"}}};
+    EXPECT_EQ(load_scene(files_.write("both.gltf", whole.dump())).triangles.size(), 2u);
 }
 
 TEST_F(GltfLoader, WhatIsCutShortOrNoGltfIsRefused) {

@@ -150,6 +150,39 @@ TEST_F(GltfLook, BodiesAbsorbAtTheirFaces) {
     expect_note(scene, "KHR_materials_volume");
 }
 
+TEST_F(GltfLook, LargerBodiesAbsorbMore) {
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+    extension("KHR_materials_volume") = {
+        {"thicknessFactor", 2}, {"attenuationDistance", 1}, {"attenuationColor", {0.5, 1, 0.25}}};
+    const auto through = [&] {
+        const Vec3 face = top_material(load()).transmission.value;
+        return face * face;
+    };
+    gltf_.root["nodes"][0]["scale"] = {0.5, 0.5, 0.5};
+    expect_close(through(), {0.5f, 1, 0.25f});  // the body is 1 m thick
+    gltf_.root["nodes"][0]["scale"] = {-4, 0.5, 0.5};
+    expect_close(through(), {0.25f, 1, 0.0625f});  // which is as large as one of the scale 1
+    extension("KHR_materials_volume")["thicknessTexture"] = {{"index", 0}};
+    add_texel({0, 0.5f, 1, 1});  // green counts
+    expect_close(through(), {0.5f, 1, 0.25f});
+    expect_note(load(), "thicknessTexture is replaced by its mean");
+}
+
+TEST_F(GltfLook, BodiesOfOneScaleShareAMaterial) {
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"scale", {3, 3, 3}}},
+                           {{"mesh", 0}, {"scale", {3, 3, 3}}, {"rotation", {0.6, 0, 0, 0.8}}},
+                           {{"mesh", 0}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1, 2};
+    extension("KHR_materials_transmission") = {{"transmissionFactor", 1}};
+    extension("KHR_materials_volume") = {{"thicknessFactor", 1}};
+    EXPECT_EQ(load().materials.size(), 1u) << "clear glass does not depend on the scale";
+    extension("KHR_materials_volume")["attenuationDistance"] = 1;
+    extension("KHR_materials_volume")["attenuationColor"] = {0.5, 0.5, 0.5};
+    const Scene scene = load();
+    EXPECT_EQ(scene.triangles.at(0).material, scene.triangles.at(2).material);
+    EXPECT_NE(scene.triangles.at(0).material, scene.triangles.at(4).material);
+}
+
 TEST_F(GltfLook, SpecularGlossinessIsConverted) {
     add_texel({1, 1, 1, 0.5f});
     extension("KHR_materials_pbrSpecularGlossiness") = {{"diffuseFactor", {0.1, 0.2, 0.3, 1}},
@@ -259,6 +292,28 @@ TEST_F(GltfLook, ImagesOfOtherKindsInDataUris) {
                         {"extensions", {{"KHR_materials_unlit", json::object()}}}};
     const Scene scene = load();
     expect_close(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f), {1, 0, 0}, 1e-3f);
+}
+
+TEST_F(GltfLook, WebPThatCannotBeReadIsReplacedByTheImageBesideIt) {
+    add_texel({1, 0.5f, 0, 1});
+    files_.write("broken.webp", "RIFF");
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                        {"extensions", {{"KHR_materials_unlit", json::object()}}}};
+    const auto color = [&](const json& webp) {
+        gltf_.root["images"] = {{{"uri", "texel.exr"}}, webp};
+        gltf_.root["textures"] = {{{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
+        const Scene scene = load();
+        return parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f);
+    };
+    for (const json& webp : {json{{"uri", "broken.webp"}}, json{{"uri", "missing.webp"}},
+                             json{{"bufferView", gltf_.view("RIFF")}, {"mimeType", "image/webp"}}}) {
+        expect_close(color(webp), {1, 0.5f, 0}, 1e-3f);
+        expect_note(load(), "EXT_texture_webp: what cannot be read is replaced by the image beside it");
+        EXPECT_THAT(load().notes, Not(Contains(Field(&Note::text, HasSubstr("mid-grey")))));
+    }
+    std::filesystem::remove(files_.path("texel.exr"));
+    expect_close(color({{"uri", "missing.webp"}}), {0.5f, 0.5f, 0.5f});
+    expect_note(load(), "texture is replaced by mid-grey because it cannot be read");
 }
 
 TEST_F(GltfLook, FactorsOfZeroWinOverTextures) {

@@ -58,6 +58,18 @@ TEST(Ply, ReadsAsciiAndBothByteOrders) {
     expect_square(read_ply(files.write("b.ply", binary_ply(true))));
 }
 
+TEST(Ply, MayHaveBlanksBehindItsHeaderAndNumbersWithAPlus) {
+    const SceneFiles files;
+    std::string text = "ply \nformat ascii 1.0\t\n" + kPlyHeader;
+    text.insert(text.rfind('\n'), " \t\r");
+    expect_square(read_ply(files.write("a.ply", text + "+0 0 0 0 0\n+1.0 0 0 1 0\n1 1 +0 1 1\n0 1 0 0 1\n+4 "
+                                                       "0 1 2 3\n")));
+    for (const char* number : {"+-1", "++1", "+"}) {
+        const auto file = files.write("b.ply", text + number + " 0 0 0 0\n");
+        EXPECT_TRUE(mentions(file_error([&] { read_ply(file); }), std::string("has '") + number + "'"));
+    }
+}
+
 TEST(Ply, MayHaveElementsThatSayNothing) {
     const SceneFiles files;
     const std::string start = "ply\nformat ascii 1.0\n";

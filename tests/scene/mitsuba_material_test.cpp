@@ -132,6 +132,29 @@ TEST_F(MitsubaMaterial, PrincipledKeepsAllItsParameters) {
     EXPECT_FLOAT_EQ(thin.eta.x, 1.3f);
 }
 
+TEST_F(MitsubaMaterial, TexturesOfThePrincipledIndexBecomeTheirMeans) {
+    write_pair("pair.exr", 0.25f, 0.75f);
+    EXPECT_FLOAT_EQ(load("principled", bitmap("specular", "pair.exr")).eta.x, 1.5f);
+    EXPECT_EQ(notes_on_line_2("a texture for 'specular'"), 1u);
+    write_pair("pair.exr", 1.0f, 1.5f);
+    EXPECT_FLOAT_EQ(load("principled", bitmap("eta", "pair.exr")).eta.x, 1.25f);
+    EXPECT_EQ(notes_on_line_2("a texture for 'eta'"), 1u);
+    write_pair("pair.exr", 1.0f, 1.0f);
+    EXPECT_FLOAT_EQ(load("principled", bitmap("eta", "pair.exr") + number("spec_trans", "1")).eta.x, 1.001f)
+        << "light needs a half-vector to be refracted";
+    write_pair("pair.exr", 0.0f, 0.0f);
+    EXPECT_FLOAT_EQ(load("principled", bitmap("eta", "pair.exr")).eta.x, 1.5f);
+    EXPECT_EQ(notes_on_line_2("'eta' is not greater than 0"), 1u);
+}
+
+TEST_F(MitsubaMaterial, SpecularIsIgnoredBesideEta) {
+    EXPECT_FLOAT_EQ(load("principled", number("eta", "1.3") + number("specular", "0.8")).eta.x, 1.3f);
+    EXPECT_EQ(notes_on_line_2("'specular' is ignored beside 'eta'"), 1u);
+    EXPECT_EQ(notes_on_line_2(""), 1u);
+    EXPECT_FLOAT_EQ(load("principledthin", number("specular", "0.8")).eta.x, 1.5f);
+    EXPECT_EQ(notes_on_line_2("unknown property 'specular'"), 1u);
+}
+
 TEST_F(MitsubaMaterial, WrappersNameTheirChildren) {
     const std::string red = "<bsdf type='diffuse'>" + rgb("reflectance", "1 0 0") + "</bsdf>";
     const std::string metal = "<bsdf type='conductor'/>";

@@ -33,6 +33,31 @@ TEST_F(MitsubaOldMaterial, LobesOfMitsuba06StandBesideTheirBase) {
     EXPECT_EQ(notes_on_line_2(""), 0u);
 }
 
+/// A conductor without a material is copper in files of Mitsuba 0.6, and a perfect mirror in those of
+/// Mitsuba 3.
+TEST_F(MitsubaOldMaterial, PartsWithoutAVersionHaveThatOfTheFileThatIncludesThem) {
+    const std::string part = shape("rectangle", "<bsdf type='conductor'/>");
+    const auto is_copper = [&](const std::string& version, const std::string& included) {
+        files_.write("part.xml", included);
+        files_.write("between.xml", "<scene><include filename='part.xml'/></scene>");
+        bool both[2];
+        for (const int k : {0, 1}) {
+            const std::string name = k == 0 ? "part.xml" : "between.xml";
+            const Scene scene = load_scene(
+                files_.write("old.xml", "<scene" + version + "><include filename='" + name + "'/></scene>"));
+            both[k] = scene.materials.at(scene.triangles.at(0).material).eta.x > 0.0f;
+        }
+        EXPECT_EQ(both[0], both[1]) << "a part of a part, too";
+        return both[0];
+    };
+    EXPECT_TRUE(is_copper(" version='0.6.0'", part));
+    EXPECT_TRUE(is_copper(" version='0.6.0'", "<scene>" + part + "</scene>"));
+    EXPECT_FALSE(is_copper(" version='0.6.0'", "<scene version='3.0.0'>" + part + "</scene>"));
+    EXPECT_FALSE(is_copper(" version='3.0.0'", part));
+    EXPECT_FALSE(is_copper("", part));
+    EXPECT_TRUE(is_copper("", "<scene version='0.5.0'>" + part + "</scene>"));
+}
+
 TEST_F(MitsubaOldMaterial, LobesReflectNoMoreThanArrives) {
     const Material phong =
         load("phong", rgb("diffuseReflectance", "0.5 0.9 0.1") + rgb("specularReflectance", "0.6"));

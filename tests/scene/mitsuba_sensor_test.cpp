@@ -153,5 +153,36 @@ TEST(MitsubaIntegrator, NamesDecideTheDepth) {
     EXPECT_TRUE(mentions(file_error([&] { load("path", whole("max_depth", 0)); }), "max_depth"));
 }
 
+TEST(MitsubaIntegrator, PropertiesThatMayChangeThePictureAreReported) {
+    const SceneFiles files;
+    const auto load = [&](const std::string& type, const std::string& body) {
+        return files.load_xml("<integrator type='" + type + "'>" + body + "</integrator>");
+    };
+    const Scene harmless =
+        load("path", whole("max_depth", 5) + whole("rrDepth", 5) + whole("block_size", 32) +
+                         "<boolean name='strictNormals' value='true'/>"
+                         "<boolean name='hide_emitters' value='true'/>");
+    EXPECT_FALSE(has_note(harmless, "of integrator"));
+    EXPECT_FALSE(has_note(load("photonmapper", whole("globalPhotons", 1000)), "of integrator"));
+    EXPECT_FALSE(
+        has_note(load("direct", whole("emitter_samples", 4) + whole("shading_samples", 4)), "of integrator"));
+    EXPECT_TRUE(has_note(load("path", whole("depth", 5)),
+                         "scene.xml:2: unknown property 'depth' of integrator 'path' is ignored"));
+    EXPECT_TRUE(has_note(load("direct", whole("max_depth", 5)), "unknown property 'max_depth'"));
+    EXPECT_TRUE(has_note(load("aov", whole("depth", 5) + "<integrator type='path'/>"),
+                         "unknown property 'depth' of integrator 'aov'"));
+    EXPECT_FALSE(has_note(load("guided_path", whole("training", 5)), "'training'"))
+        << "nobody knows what it means";
+}
+
+TEST(MitsubaIntegrator, TheLastOfSeveralCounts) {
+    const SceneFiles files;
+    const Scene scene =
+        files.load_xml("<integrator type='path'/>\n<integrator type='direct'/>\n<integrator type='path'>" +
+                       whole("max_depth", 7) + "</integrator>");
+    EXPECT_EQ(scene.max_depth, 7);
+    EXPECT_TRUE(has_note(scene, "scene.xml:3: the scene has several integrators; only the last one counts"));
+}
+
 }  // namespace
 }  // namespace nearlight::core

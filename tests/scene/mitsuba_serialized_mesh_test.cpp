@@ -65,7 +65,7 @@ std::string triangle(int version, double height, bool is_double) {
         put(number);
     }
     for (int i = 0; is_double && i < 9; ++i) {
-        put(0.5);  // colours
+        put(0.125 * i);  // colours
     }
     return zlib_stream(data + bytes(std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{2}));
 }
@@ -114,6 +114,39 @@ TEST(SerializedMesh, OldAndNewVersions) {
     EXPECT_TRUE(recent.face_normals);
 }
 
+TEST(SerializedMesh, ColoursAndFlatFacetsAreThoseOfTheFile) {
+    const SceneFiles files;
+    const auto read = [&](const std::string& text) {
+        return mitsuba::read_serialized(files.write("a.serialized", header(4) + text), 0);
+    };
+    EXPECT_FALSE(read(triangle(4, 1.0, true)).face_normals);
+    EXPECT_TRUE(read(triangle(4, 1.0, false)).colors.empty());
+    const Mesh colored = read(triangle(4, 1.0, true));
+    ASSERT_EQ(colored.colors.size(), 3u);
+    expect_near(colored.colors[1], {0.375f, 0.5f, 0.625f});
+
+    std::string data = bytes(std::uint32_t{0x1010}, '\0', std::uint64_t{3}, std::uint64_t{1});
+    data += bytes(0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f);
+    data += bytes(std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{2});
+    EXPECT_TRUE(read(zlib_stream(data)).face_normals);
+}
+
+TEST(SerializedMesh, TexturesLookUpColoursOfVertices) {
+    const SceneFiles files;
+    files.write("a.serialized", header(4) + triangle(4, 1.0, true));
+    const auto load = [&](const std::string& name) {
+        return files.load_xml(
+            shape("serialized",
+                  "<string name='filename' value='a.serialized'/><bsdf type='diffuse'>"
+                  "<texture type='mesh_attribute' name='reflectance'><string name='name' value='" +
+                      name + "'/></texture></bsdf>"));
+    };
+    const Scene scene = load("vertex_color");
+    ASSERT_EQ(scene.vertex_colors.size(), 3u);
+    expect_near(scene.vertex_colors[1], {0.375f, 0.5f, 0.625f});
+    EXPECT_TRUE(has_note(load("vertex_heat"), "the mesh has none")) << "the file has no such attribute";
+}
+
 TEST(SerializedMesh, BrokenFilesAreRefused) {
     const SceneFiles files;
     const std::string good = header(4) + triangle(4, 2.0, false);
@@ -127,9 +160,16 @@ TEST(SerializedMesh, BrokenFilesAreRefused) {
     for (std::size_t size = 4; size < good.size(); size += 7) {
         error(good.substr(0, size));
     }
-    EXPECT_TRUE(mentions(error(header(4) + zlib_stream(bytes(std::uint32_t{0x1000}) + '\0' +
-                                                       bytes(~std::uint64_t{0}, std::uint64_t{1}))),
-                         "more vertices"));
+    const auto promise = [](std::uint64_t vertices) {
+        return header(4) +
+               zlib_stream(bytes(std::uint32_t{0x1000}) + '\0' + bytes(vertices, std::uint64_t{1}));
+    };
+    EXPECT_TRUE(mentions(error(promise(~std::uint64_t{0})), "more vertices"));
+    EXPECT_TRUE(mentions(error(promise(0xffffffffu)), "the file is truncated"))
+        << "and takes no memory before";
+    std::string changed = good;
+    changed.back() = static_cast<char>(changed.back() ^ 1);
+    EXPECT_TRUE(mentions(error(changed), "broken")) << "the checksum is another one";
 }
 
 TEST(MitsubaMerge, MergedShapesAreThere) {

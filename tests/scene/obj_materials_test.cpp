@@ -2,7 +2,9 @@
 // The materials of OBJ scenes.
 #include <cmath>
 
+#include "host/image/image_io.h"
 #include "host/scene/obj/obj_text.h"
+#include "host/scene/texture.h"
 #include "tests/scene/obj_text.h"
 
 namespace nearlight::core {
@@ -74,6 +76,27 @@ TEST(Obj, HighlightsAreRoughPlastic) {
               NEARLIGHT_BSDF_PLASTIC);
     EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is replaced"));
     EXPECT_TRUE(has_note(scene, "map_Ns"));
+}
+
+TEST(Obj, TexturesAloneGiveHighlightsTheirColour) {
+    const SceneFiles files;
+    write_image(files.path("t.exr"), {1, 1, {"R", "G", "B"}, {0.2f, 0.3f, 0.4f}});
+    Scene scene;
+    const auto highlight = [&](const std::string& entry) {
+        const Material side = only_material(files, "Kd 0.5 0.5 0.5\nNs 98\n" + entry, &scene);
+        return side.model == NEARLIGHT_BSDF_PLASTIC ? parameter_value(scene, side.specular, 0.5f, 0.5f)
+                                                    : Vec3{0, 0, 0};
+    };
+    expect_near(highlight("map_Ks t.exr\nillum 2\n"), {0.2f, 0.3f, 0.4f}, 1e-3f);
+    expect_near(highlight("Ks 0.5 0.5 0.5\nmap_Ks t.exr\n"), {0.1f, 0.15f, 0.2f}, 1e-3f);
+    expect_near(highlight("Ks 0 0 0\nmap_Ks t.exr\n"), {0, 0, 0});
+    expect_near(highlight("map_Ks t.exr\nillum 1\n"), {0, 0, 0});
+    expect_near(highlight("map_Ks gone.exr\n"), {0.5f, 0.5f, 0.5f});
+    EXPECT_TRUE(has_note(scene, "texture is replaced by mid-grey"));
+    only_material(files, "Kd 0.5 0.5 0.5\nmap_Ks t.exr\nillum 3\n", &scene);
+    for (const Material& material : scene.materials) {
+        EXPECT_NE(material.model, NEARLIGHT_BSDF_CONDUCTOR) << "it would mirror all light";
+    }
 }
 
 TEST(Obj, EntriesWithoutAColorAreGrey) {

@@ -157,6 +157,31 @@ TEST(Obj, LinesMayContinue) {
     EXPECT_TRUE(mentions(error, "m.obj:5: ")) << error;
 }
 
+TEST(Obj, ElementsThatAreNoFacesAreNoted) {
+    const SceneFiles files;
+    const std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const char* const note = "m.obj: points, lines and free-form surfaces are left out";
+    EXPECT_FALSE(has_note(load_obj(files, face + "# l 1 2\ns 1\ng l\n"), note));
+    for (const char* element : {"l 1 2 3", " p 1", "curv 0 1 1 2", "curv2 1 2", "surf 0 1 0 1 1 2 3"}) {
+        const Scene scene = load_obj(files, face + element + "\nl 1 2\n");
+        EXPECT_TRUE(has_note(scene, note)) << element;
+        EXPECT_EQ(scene.triangles.size(), 1u) << element;
+    }
+    const Scene shape = files.load_xml("<shape type='obj'><string name='filename' value='m.obj'/></shape>");
+    EXPECT_FALSE(has_note(shape, "free-form")) << "Mitsuba leaves them out, too";
+}
+
+TEST(Obj, CommentsDoNotContinue) {
+    const SceneFiles files;
+    files.write("m.mtl", "  # File: C:\\models\\\nnewmtl a\n# a \\\r\nKd 0.1 0.2 0.3\n");
+    const Scene scene = load_obj(files,
+                                 "# File: C:\\models\\\nmtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf "
+                                 "1 \\\n2 3\n#\\\nf 1 3 \\\n2\n");
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    const Material side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
+}
+
 TEST(Obj, TextOfWideCharactersIsNamed) {
     const SceneFiles files;
     const std::string error = file_error([&] { load_obj(files, std::string("\xff\xfev\0 \0", 6)); });

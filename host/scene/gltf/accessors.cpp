@@ -130,7 +130,7 @@ void for_each_number(const GltfFile& file, const tinygltf::Accessor& accessor, s
 }
 
 const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, int components) {
-    const tinygltf::Accessor& accessor = file.at(file.model.accessors, index, "accessor", "a mesh");
+    const tinygltf::Accessor& accessor = file.at(file.model.accessors, index, "accessor", "the file");
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components) {
         file.fail("accessor " + std::to_string(index) + " does not have " + std::to_string(components) +
                   " numbers per element");

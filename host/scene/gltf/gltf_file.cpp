@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include "host/scene/file_text.h"
@@ -141,6 +142,39 @@ bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, i
     return true;
 }
 
+/// The names under which tinygltf looks for the files of images. A buffer may be in one of these files, too,
+/// which is then not among them.
+std::set<std::string> find_image_paths(const std::filesystem::path& path, const JsonSurvey& survey) {
+    std::set<std::string> paths;
+    const std::string folder = path.parent_path().string();
+    const std::string start = folder.empty() || folder.ends_with('/') ? folder : folder + "/";
+    for (const std::string& uri : survey.images) {
+        paths.insert({start + decoded_uri(uri), "./" + decoded_uri(uri)});
+    }
+    for (const std::string& uri : survey.buffers) {
+        paths.erase(start + decoded_uri(uri));
+        paths.erase("./" + decoded_uri(uri));
+    }
+    return paths;
+}
+
+/// Hides the files of images from tinygltf, which would read all of them, only for keep_image() to drop what
+/// it has read. It makes nothing of files that are missing.
+bool is_no_image(const std::string& path, void* paths_of_images) {
+    return !static_cast<const std::set<std::string>*>(paths_of_images)->contains(path) &&
+           tinygltf::FileExists(path, nullptr);
+}
+
+tinygltf::FsCallbacks callbacks_without(std::set<std::string>& paths_of_images) {
+    tinygltf::FsCallbacks callbacks{};
+    callbacks.FileExists = is_no_image;
+    callbacks.ExpandFilePath = tinygltf::ExpandFilePath;
+    callbacks.ReadWholeFile = tinygltf::ReadWholeFile;
+    callbacks.WriteWholeFile = tinygltf::WriteWholeFile;
+    callbacks.user_data = &paths_of_images;
+    return callbacks;
+}
+
 /// Decodes images in data URIs of kinds that tinygltf leaves as they are, such as WebP.
 void decode_other_images(tinygltf::Model& model) {
     for (tinygltf::Image& image : model.images) {
@@ -167,6 +201,25 @@ const tinygltf::Value* member(const tinygltf::ExtensionMap& extensions, const ch
 
 }  // namespace
 
+std::string decoded_uri(const std::string& uri) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                      : -1;
+    };
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+            name += static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2]));
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    return name;
+}
+
 void GltfFile::fail(const std::string& what) const {
     throw Error(ErrorKind::file, path.string() + ": " + what);
 }
@@ -179,6 +232,8 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     text = without_stand_ins(std::move(text), survey);
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keep_image, nullptr);
+    std::set<std::string> hidden = find_image_paths(path, survey);
+    static_cast<void>(reader.SetFsCallbacks(callbacks_without(hidden)));
     std::string error;
     std::string warning;
     const std::string folder = path.parent_path().string();

@@ -36,6 +36,9 @@ struct GltfFile {
 /// broken or needs an extension that is not supported.
 GltfFile read_gltf(const std::filesystem::path& path);
 
+/// The name of a file that a URI stands for, with `%20` and its like decoded.
+std::string decoded_uri(const std::string& uri);
+
 /// The bytes of a buffer view. Calls fail() if it reaches beyond its buffer.
 std::span<const std::byte> bytes_of(const GltfFile& file, int buffer_view);
 

@@ -10,10 +10,10 @@
 namespace nearlight::core {
 
 /// Reads the file's default scene, or its first one if it names none. Cameras have their own and their nodes'
-/// names. A camera is added if there is none, which stands as for the nodes at rest, and a neutral sky if
-/// nothing is there to light the scene. The unit is the metre; lights in candela and lux count 1/683 of that
-/// in W, and emission is a radiance. Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for
-/// an unknown parameter, camera or animation.
+/// names. If the file has no camera, one is added that frames the nodes at rest; if nothing lights the scene,
+/// a neutral sky is added. The unit is the metre; lights in candela and lux count 1/683 of that in W, and
+/// emission is a radiance. Throws Error(ErrorKind::file), or Error(ErrorKind::invalid_argument) for an
+/// unknown parameter, camera or animation.
 Scene load_gltf_scene(const std::filesystem::path& file, const LoadOptions& options);
 
 /// The camera of a file at a moment.

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Follows the nesting, and collects the strings of the root's lists of extensions.
+/// Follows the nesting, and collects the strings of the root's lists of extensions, and the names of files
+/// that stand in its lists of images and buffers.
 class Surveyor : public nlohmann::json_sax<Json> {
   public:
     explicit Surveyor(JsonSurvey& survey) : survey_(survey) {}
@@ -26,6 +27,9 @@ class Surveyor : public nlohmann::json_sax<Json> {
         if (list_ != nullptr && depth_ == 2) {
             list_->push_back(value);
         }
+        if (files_ != nullptr && depth_ == 3 && is_uri_ && !value.starts_with("data:")) {
+            files_->push_back(value);
+        }
         return true;
     }
     bool key(string_t& value) override {
@@ -33,8 +37,10 @@ class Surveyor : public nlohmann::json_sax<Json> {
             list_ = value == "extensionsRequired" ? &survey_.required
                     : value == "extensionsUsed"   ? &survey_.used
                                                   : nullptr;
+            files_ = value == "images" ? &survey_.images : value == "buffers" ? &survey_.buffers : nullptr;
             is_list_ = value == "meshes" || value == "nodes" || value == "scenes";
         }
+        is_uri_ = value == "uri";
         return true;
     }
     bool start_object(std::size_t) override {
@@ -59,6 +65,8 @@ class Surveyor : public nlohmann::json_sax<Json> {
     JsonSurvey& survey_;
     std::size_t depth_ = 0;
     std::vector<std::string>* list_ = nullptr;
+    std::vector<std::string>* files_ = nullptr;
+    bool is_uri_ = false;   ///< the latest key is that of a URI
     bool is_list_ = false;  ///< the latest key of the root names an array of glTF 2.0
 };
 

@@ -13,10 +13,12 @@ struct JsonSurvey {
     std::size_t depth = 0;              ///< how deep arrays and objects are nested
     std::vector<std::string> required;  ///< what `extensionsRequired` names
     std::vector<std::string> used;      ///< what `extensionsUsed` names
+    std::vector<std::string> images;    ///< URIs of files that images name; those that hold data are left out
+    std::vector<std::string> buffers;   ///< and of those that buffers name
     bool is_version_1 = false;          ///< meshes, nodes or scenes have names in place of numbers
 };
 
-/// Reads the text once, in constant memory, however deeply it is nested.
+/// Reads the text once, in memory that does not grow with how deeply it is nested.
 JsonSurvey survey_json(std::string_view text);
 
 /// The JSON of a .gltf file, or the first chunk of a .glb; empty if a .glb is cut short.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
@@ -16,16 +17,27 @@ float clearcoat_gloss(double roughness) {
     return static_cast<float>(std::clamp((0.1 - roughness * roughness) / (0.1 - 0.001), 0.0, 1.0));
 }
 
-/// The textures that matter most to a material first.
+bool has_emission(const tinygltf::Material& source) {
+    return std::ranges::any_of(source.emissiveFactor, [](double factor) { return factor > 0; });
+}
+
+/// The textures that matter most to a material first, without those that a factor of 0 keeps out of sight.
 std::vector<tinygltf::TextureInfo> textures_of(const tinygltf::Material& source) {
-    std::vector<tinygltf::TextureInfo> infos{
-        plain_info(source.normalTexture), source.pbrMetallicRoughness.baseColorTexture,
-        source.emissiveTexture, source.pbrMetallicRoughness.metallicRoughnessTexture};
-    for (const auto& [extension, key] : {std::pair{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture"},
-                                         {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture"},
-                                         {"KHR_materials_transmission", "transmissionTexture"},
-                                         {"KHR_materials_clearcoat", "clearcoatTexture"}}) {
-        infos.push_back(texture_of(source.extensions, extension, key));
+    std::vector<tinygltf::TextureInfo> infos{plain_info(source.normalTexture),
+                                             source.pbrMetallicRoughness.baseColorTexture};
+    if (has_emission(source)) {
+        infos.push_back(source.emissiveTexture);
+    }
+    infos.push_back(source.pbrMetallicRoughness.metallicRoughnessTexture);
+    for (const char* key : {"diffuseTexture", "specularGlossinessTexture"}) {
+        infos.push_back(texture_of(source.extensions, "KHR_materials_pbrSpecularGlossiness", key));
+    }
+    for (const auto& [extension, factor, key] :
+         {std::tuple{"KHR_materials_transmission", "transmissionFactor", "transmissionTexture"},
+          {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoatTexture"}}) {
+        if (number_of(source.extensions, extension, factor, 0) > 0) {
+            infos.push_back(texture_of(source.extensions, extension, key));
+        }
     }
     return infos;
 }
@@ -108,8 +120,8 @@ uint MaterialMaker::add_normal_map(const tinygltf::Material& source, const Surfa
 }
 
 uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& use) {
-    const SurfaceContext context{file_,          textures_,     notes_, texture_sets(use.index),
-                                 use.has_colors, use.has_alphas};
+    const SurfaceContext context{file_,          textures_,      notes_,   texture_sets(use.index),
+                                 use.has_colors, use.has_alphas, use.scale};
     const SurfaceModel surface = read_surface(source, context);
     uint made = surface.is_glass() ? add_glass(surface) : add_opaque(surface);
     if (surface.transmits() && !surface.is_glass()) {
@@ -181,13 +193,16 @@ bool MaterialMaker::is_transparent(int index) const {
     return index >= 0 && has_opacity(source_of(index));
 }
 
+bool MaterialMaker::absorbs_inside(int index) const {
+    return index >= 0 && gltf::absorbs_inside(source_of(index));
+}
+
 bool MaterialMaker::emits_back(int index) const {
     if (index < 0 || !source_of(index).doubleSided) {
         return false;
     }
     const tinygltf::Material& source = source_of(index);
-    return source.extensions.contains("KHR_materials_unlit") ||
-           std::ranges::any_of(source.emissiveFactor, [](double factor) { return factor > 0; });
+    return source.extensions.contains("KHR_materials_unlit") || has_emission(source);
 }
 
 std::vector<uint> MaterialMaker::shining_backs(const std::vector<uint>& fronts) {

@@ -17,6 +17,7 @@ struct MaterialUse {
     bool has_colors = false;   ///< the vertices have colours
     bool has_alphas = false;   ///< and an alpha, as the first of their second texture coordinates
     bool is_mirrored = false;  ///< texture coordinates run clockwise as seen from the front
+    float scale = 1;  ///< of lengths from the mesh to the world; 1 unless the material absorbs light inside
 
     auto operator<=>(const MaterialUse&) const = default;
 };
@@ -37,6 +38,8 @@ class MaterialMaker {
     [[nodiscard]] bool has_normal_map(int index) const;
     /// Whether the material has holes, or lets light through.
     [[nodiscard]] bool is_transparent(int index) const;
+    /// Whether bodies of the material absorb light, more of it the larger they are.
+    [[nodiscard]] bool absorbs_inside(int index) const;
     /// Whether light should leave the back of its surfaces, too.
     [[nodiscard]] bool emits_back(int index) const;
     /// The materials of the backs of surfaces that shine to both sides. Those of plain opaque surfaces are

@@ -2,6 +2,7 @@
 #include "host/scene/gltf/meshes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/mesh_pose.h"
@@ -77,6 +78,18 @@ void group_by_side(Mesh& mesh) {
     }
 }
 
+/// How much longer lengths become, as the geometric mean over the axes. It is rounded, so that placements
+/// which differ by rounding errors alone share a material, and it stays a number where the transform has
+/// overflowed.
+float rounded_scale(const Mat4& to_world) {
+    constexpr double kMax = 1e30;
+    constexpr int kBits = 16;
+    int exponent = 0;
+    const double scale = std::min(kMax, std::cbrt(std::abs(linear_determinant(to_world))));
+    const double fraction = std::frexp(scale, &exponent);
+    return static_cast<float>(std::ldexp(std::round(std::ldexp(fraction, kBits)), exponent - kBits));
+}
+
 }  // namespace
 
 /// Reads the mesh in its pose at rest. What is in it may be looked up without further checks.
@@ -149,11 +162,12 @@ void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive
 }
 
 /// Makes the materials of the mesh's groups where it stands: two if texture coordinates run clockwise here
-/// and there. A placement that mirrors turns them round.
+/// and there. A placement that mirrors turns them round, and one that enlarges a body makes it darker.
 std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, const Mat4& to_world) {
     const bool mirrors = linear_determinant(to_world) < 0;
     const bool has_alphas = !mesh.second_uvs.empty() && materials_.texture_sets(material).second < 0;
-    MaterialUse use{material, !mesh.colors.empty(), has_alphas, mirrors && !mesh.groups.empty()};
+    MaterialUse use{material, !mesh.colors.empty(), has_alphas, mirrors && !mesh.groups.empty(),
+                    materials_.absorbs_inside(material) ? rounded_scale(to_world) : 1.0f};
     std::vector<uint> chosen{materials_.material(use)};
     if (std::ranges::find(mesh.groups, 1u) != mesh.groups.end()) {
         use.is_mirrored = !use.is_mirrored;

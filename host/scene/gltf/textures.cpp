@@ -12,26 +12,6 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// Decodes `%20` and its like, because file names in glTF are URIs.
-std::string decoded_uri(const std::string& uri) {
-    const auto digit = [](char c) {
-        return c >= '0' && c <= '9'   ? c - '0'
-               : c >= 'a' && c <= 'f' ? c - 'a' + 10
-               : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                      : -1;
-    };
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-            name += static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2]));
-            i += 2;
-        } else {
-            name += uri[i];
-        }
-    }
-    return name;
-}
-
 /// The image's name, with the extension of its kind if it is no file.
 std::string name_of(const tinygltf::Image& image) {
     const bool is_webp = image.mimeType == "image/webp";
@@ -96,10 +76,9 @@ void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
                                                                           : NEARLIGHT_FILTER_BILINEAR;
 }
 
-/// The index of the texture's image in a format that is read, or −1.
-int readable_image_of(const tinygltf::Texture& texture) {
-    const int webp = index_of(texture.extensions, "EXT_texture_webp", "source", -1);
-    return webp >= 0 ? webp : texture.source;
+/// The index of the texture's image of the kind WebP, or −1.
+int webp_of(const tinygltf::Texture& texture) {
+    return index_of(texture.extensions, "EXT_texture_webp", "source", -1);
 }
 
 }  // namespace
@@ -117,7 +96,8 @@ int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info) {
 std::vector<ImageSource> TextureMaker::shown_images() const {
     std::vector<ImageSource> sources;
     for (const tinygltf::Texture& texture : file_.model.textures) {
-        const auto index = static_cast<std::size_t>(readable_image_of(texture));
+        const int webp = webp_of(texture);
+        const auto index = static_cast<std::size_t>(webp >= 0 ? webp : texture.source);
         if (index >= file_.model.images.size()) {
             continue;
         }
@@ -139,6 +119,36 @@ int TextureMaker::load_image(const tinygltf::Image& image, const TexelRule& rule
         return -1;
     }
     return loader_.load(*source, rule, file_.path, 0);
+}
+
+bool TextureMaker::can_read(int image) {
+    const auto index = static_cast<std::size_t>(image);
+    if (index >= file_.model.images.size()) {
+        return true;  // the error is told by whoever asks for the image
+    }
+    const auto [entry, is_new] = readable_.try_emplace(image, true);
+    if (!is_new) {
+        return entry->second;
+    }
+    try {
+        entry->second = loader_.can_read(source_of(file_, file_.model.images[index]));
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::file) {
+            throw;
+        }
+        entry->second = false;
+    }
+    return entry->second;
+}
+
+/// Builds may lack what it takes to read WebP, and files that do not require it have another image beside it.
+int TextureMaker::readable_image_of(const tinygltf::Texture& texture) {
+    const int webp = webp_of(texture);
+    if (webp < 0 || texture.source < 0 || can_read(webp)) {
+        return webp >= 0 ? webp : texture.source;
+    }
+    notes_.remark(file_.path, 0, "EXT_texture_webp: what cannot be read is replaced by the image beside it");
+    return texture.source;
 }
 
 /// The index of the texture's image, −1 if it has none, or −2 with a note if it has only one of a format that
@@ -214,7 +224,7 @@ Vec3 TextureMaker::mean(const Parameter& parameter) const {
     return mean_value(scene_, parameter);
 }
 
-bool TextureMaker::share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const {
+bool TextureMaker::share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) {
     const auto image = [&](const tinygltf::TextureInfo& info) {
         const auto index = static_cast<std::size_t>(info.index);
         const bool is_there = info.index >= 0 && index < file_.model.textures.size();

@@ -52,10 +52,14 @@ class TextureMaker {
     /// The mean of a parameter over its texture.
     [[nodiscard]] Vec3 mean(const Parameter& parameter) const;
     /// Whether both textures show the same image.
-    [[nodiscard]] bool share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) const;
+    [[nodiscard]] bool share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b);
 
   private:
     [[nodiscard]] std::vector<ImageSource> shown_images() const;
+    [[nodiscard]] bool can_read(int image);
+    /// The index of the texture's image: in the format WebP, unless it cannot be read and there is another
+    /// one; −1 if it has none.
+    [[nodiscard]] int readable_image_of(const tinygltf::Texture& texture);
     [[nodiscard]] int image_of(const tinygltf::Texture& texture);
     int load_image(const tinygltf::Image& image, const TexelRule& rule);
 
@@ -64,6 +68,7 @@ class TextureMaker {
     NoteSink& notes_;
     TextureLoader loader_;
     std::map<std::pair<int, TexelRule>, int> images_;  ///< index into Scene::images, or −1
+    std::map<int, bool> readable_;                     ///< whether images of the kind WebP can be read
     int vertex_color_ = -1;                            ///< index into Scene::textures
     int ramp_ = -1;                                    ///< index into Scene::images
 };

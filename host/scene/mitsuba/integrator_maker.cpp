@@ -39,6 +39,31 @@ int path_depth(const Object& integrator) {
     return depth < 0.0 ? kUnlimitedPathDepth : static_cast<int>(depth);
 }
 
+/// Marks as known what only says how a picture is computed, in Mitsuba 0.5 to 3, and how fast.
+void ignore_ways_to_compute(const Object& integrator) {
+    integrator.ignore({"rr_depth", "samples_per_pass", "block_size", "timeout", "strict_normals"});
+    integrator.ignore({"shading_samples", "direct_samples", "glossy_samples", "luminance_samples"});
+    integrator.ignore({"use_spectral_mis", "sppc", "sppp", "sppi", "guiding", "guiding_proj",
+                       "guiding_rounds", "light_image", "sample_direct", "brute_force", "granularity"});
+    integrator.ignore({"global_photons", "caustic_photons", "volume_photons", "global_lookup_radius",
+                       "caustic_lookup_radius", "lookup_size", "global_lookup_size", "caustic_lookup_size",
+                       "volume_lookup_size", "gather_locally", "auto_cancel_gathering"});
+    integrator.ignore(
+        {"photon_count", "initial_radius", "alpha", "max_passes", "shadow_map_resolution", "clamping"});
+    integrator.ignore({"bidirectional", "two_stage", "p_large", "bidirectional_mutation", "lens_perturbation",
+                       "multi_chain_perturbation", "caustic_perturbation", "manifold_perturbation", "lambda",
+                       "num_chains", "max_chains", "chain_length"});
+    // These are of integrators that have another one in them.
+    integrator.ignore({"aovs", "max_error", "p_value", "max_sample_factor", "resolution", "quality",
+                       "quality_adjustment", "gradients", "clamp_neighbor", "clamp_screen", "overture"});
+}
+
+/// Reports properties that may change the picture, of integrators that are known.
+void report_unknown_properties(const Object& integrator, NoteSink& notes) {
+    ignore_ways_to_compute(integrator);
+    integrator.report_unused(notes);
+}
+
 /// The integrator that `wrapper` renders along with something else.
 const Object& wrapped(const Object& wrapper, NoteSink& notes) {
     const std::vector<const Object*> nested = wrapper.nested("integrator");
@@ -63,7 +88,9 @@ const Object& innermost(const Object& integrator, NoteSink& notes) {
             fail(inner->where,
                  "more than " + std::to_string(kMaxWrappers) + " integrators lie within each other");
         }
-        inner = &wrapped(*inner, notes);
+        const Object& wrapper = *inner;
+        inner = &wrapped(wrapper, notes);
+        report_unknown_properties(wrapper, notes);
     }
     return *inner;
 }
@@ -78,7 +105,8 @@ void apply_integrator(const Object& outermost, Scene& scene, NoteSink& notes) {
                  "' is not supported, because it shows something else than light; use 'path'");
     }
     const bool is_direct = is_one_of(kDirectIntegrators, integrator);
-    if (!is_direct && !is_one_of(kPathIntegrators, integrator)) {
+    const bool is_known = is_direct || is_one_of(kPathIntegrators, integrator);
+    if (!is_known) {
         note(
             notes, integrator.where,
             "unknown integrator '" + integrator.type + "' is taken for one that makes the picture of 'path'");
@@ -92,6 +120,9 @@ void apply_integrator(const Object& outermost, Scene& scene, NoteSink& notes) {
                      std::string("'") + samples + "' of 0 is ignored; no light is left out");
             }
         }
+    }
+    if (is_known) {
+        report_unknown_properties(integrator, notes);
     }
 }
 

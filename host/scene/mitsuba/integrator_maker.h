@@ -6,7 +6,8 @@
 
 namespace nearlight::core::mitsuba {
 
-/// Sets the scene's maximum depth and whether emitters are hidden. Calls fail() for an integrator whose
+/// Sets the scene's maximum depth and whether emitters are hidden. Notes properties of known integrators that
+/// mean nothing here, unless they only say how the picture is computed. Calls fail() for an integrator whose
 /// picture is not one of all light along paths of a limited length.
 void apply_integrator(const Object& integrator, Scene& scene, NoteSink& notes);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "host/base/thread_limit.h"
@@ -104,16 +105,24 @@ void MeshReader::read_ahead() {
     const std::size_t most = files_ahead(kMaxAhead);
     while (!coming_.empty() && ahead_.size() < most) {
         const Object* const shape = coming_.front();
-        coming_.pop_front();
         if (can_be_ahead(*shape)) {
-            ahead_.push_back({shape, std::async(std::launch::async, read_source, source_of(*shape))});
+            MeshSource source = source_of(*shape);
+            try {
+                ahead_.push_back({shape, std::async(std::launch::async, read_source, std::move(source))});
+            } catch (const std::system_error&) {
+                return;  // the system gives no more threads
+            }
         }
+        coming_.pop_front();
     }
 }
 
 std::future<MeshFile> MeshReader::read(const Object& shape) {
     read_ahead();
     if (ahead_.empty() || ahead_.front().shape != &shape) {
+        if (!coming_.empty() && coming_.front() == &shape) {
+            coming_.pop_front();  // it is read now, because no other thread has begun to
+        }
         return std::async(std::launch::deferred, read_source, source_of(shape));
     }
     std::future<MeshFile> file = std::move(ahead_.front().file);

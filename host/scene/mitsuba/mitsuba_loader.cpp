@@ -47,8 +47,11 @@ void translate(const Object& root, const std::string& camera, Scene& scene, Note
         add_emitter(*emitter, scene, textures, notes);
     }
     apply_sensors(root, camera, scene, notes);
-    for (const Object* integrator : root.nested("integrator")) {
-        apply_integrator(*integrator, scene, notes);
+    if (const std::vector<const Object*> integrators = root.nested("integrator"); !integrators.empty()) {
+        if (integrators.size() > 1) {
+            note(notes, integrators[1]->where, "the scene has several integrators; only the last one counts");
+        }
+        apply_integrator(*integrators.back(), scene, notes);
     }
     for (const char* definitions : {"bsdf", "texture", "film", "sampler", "rfilter"}) {
         root.ignore_nested(definitions);

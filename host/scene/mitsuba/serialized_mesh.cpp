@@ -9,6 +9,8 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "host/scene/file_text.h"
 #include "nearlight/error.h"
@@ -25,6 +27,7 @@ constexpr std::size_t kHeaderSize = 4;  // magic number and version
 constexpr std::uint32_t kHasNormals = 1;
 constexpr std::uint32_t kHasUvs = 2;
 constexpr std::uint32_t kHasColors = 8;
+constexpr std::uint32_t kFaceNormals = 0x10;
 constexpr std::uint32_t kDoublePrecision = 0x2000;
 // Flags of version 5.
 constexpr std::uint32_t kPackedNormals = 1;
@@ -36,96 +39,135 @@ constexpr std::uint32_t kPackedFaceNormals = 0x10;
     throw Error(ErrorKind::file, file.string() + ": " + what);
 }
 
-/// Reads numbers from bytes, one after another.
-class ByteReader {
+/// Decompresses the zlib stream that begins at a place of the file, no further than it is asked for: neither
+/// a file of many meshes nor a small one that would fill the memory is read as a whole.
+class InflatingReader {
   public:
-    ByteReader(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+    InflatingReader(const std::filesystem::path& path, FileParts& file, std::uint64_t begin)
+        : path_(path), file_(file), next_(begin) {
+        if (inflateInit(&stream_) != Z_OK) {
+            throw Error(ErrorKind::out_of_memory, path.string() + ": no memory to decompress this file");
+        }
+    }
+    ~InflatingReader() { inflateEnd(&stream_); }
+    InflatingReader(const InflatingReader&) = delete;
+    InflatingReader& operator=(const InflatingReader&) = delete;
 
+    /// Takes memory as the numbers come, because a broken file may promise any count of them.
     template <typename T>
     std::vector<T> array(std::uint64_t count) {
-        if (count > bytes_.size() / sizeof(T)) {
-            refuse(file_, "the file is truncated");
+        std::vector<T> values;
+        while (values.size() < count) {
+            const std::size_t before = values.size();
+            const std::uint64_t part = std::min<std::uint64_t>(count - before, kStep / sizeof(T));
+            values.resize(before + static_cast<std::size_t>(part));
+            take(reinterpret_cast<char*>(values.data() + before), (values.size() - before) * sizeof(T));
         }
-        std::vector<T> values(static_cast<std::size_t>(count));
-        if (count > 0) {
-            std::memcpy(values.data(), bytes_.data(), values.size() * sizeof(T));
-        }
-        bytes_.remove_prefix(values.size() * sizeof(T));
         return values;
     }
     template <typename T>
     T number() {
-        return array<T>(1)[0];
+        T value;
+        take(reinterpret_cast<char*>(&value), sizeof value);
+        return value;
     }
     void skip_terminated_text() {
         while (number<char>() != '\0') {}
     }
+    void skip(std::uint64_t bytes) {
+        for (; bytes > 0; --bytes) {
+            static_cast<void>(number<char>());
+        }
+    }
+    /// Refuses a stream whose checksum is wrong or missing. What follows the mesh in its stream is left
+    /// alone.
+    void finish() {
+        if (inflated_.empty()) {
+            inflate_more();
+        }
+    }
 
   private:
-    const std::filesystem::path& file_;
-    std::string_view bytes_;
-};
+    static constexpr std::size_t kStep = std::size_t{1} << 18;
 
-/// Decompresses the zlib stream at the beginning of the bytes.
-std::string inflate_stream(const std::filesystem::path& file, std::string_view bytes) {
-    z_stream stream{};
-    if (inflateInit(&stream) != Z_OK) {
-        throw Error(ErrorKind::out_of_memory, file.string() + ": no memory to decompress this file");
-    }
-    std::string result;
-    std::string chunk(std::size_t{1} << 18, '\0');
-    int status = Z_OK;
-    while (status == Z_OK) {
-        // zlib counts in 32 bits, and takes the input without changing it.
-        if (stream.avail_in == 0 && !bytes.empty()) {
-            const std::size_t part = std::min<std::size_t>(bytes.size(), 1u << 30);
-            stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
-            stream.avail_in = static_cast<uInt>(part);
-            bytes.remove_prefix(part);
+    void take(char* target, std::size_t bytes) {
+        while (bytes > 0) {
+            if (inflated_.empty() && !inflate_more()) {
+                refuse(path_, "the file is truncated");
+            }
+            const std::size_t part = std::min(bytes, inflated_.size());
+            std::memcpy(target, inflated_.data(), part);
+            inflated_.remove_prefix(part);
+            target += part;
+            bytes -= part;
         }
-        stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
-        stream.avail_out = static_cast<uInt>(chunk.size());
-        status = inflate(&stream, Z_NO_FLUSH);
-        result.append(chunk.data(), chunk.size() - stream.avail_out);
     }
-    inflateEnd(&stream);
-    if (status != Z_STREAM_END) {
-        refuse(file, "the compressed data is broken or truncated");
+    /// Whether there are more bytes.
+    bool inflate_more() {
+        std::size_t count = 0;
+        while (status_ == Z_OK && count == 0) {
+            if (stream_.avail_in == 0) {
+                compressed_ = file_.read(next_, kStep);
+                next_ += compressed_.size();
+                stream_.next_in = reinterpret_cast<Bytef*>(compressed_.data());
+                stream_.avail_in = static_cast<uInt>(compressed_.size());
+            }
+            stream_.next_out = reinterpret_cast<Bytef*>(chunk_.data());
+            stream_.avail_out = static_cast<uInt>(chunk_.size());
+            status_ = inflate(&stream_, Z_NO_FLUSH);
+            count = chunk_.size() - stream_.avail_out;
+        }
+        if (status_ != Z_OK && status_ != Z_STREAM_END) {
+            refuse(path_, "the compressed data is broken or truncated");
+        }
+        inflated_ = std::string_view(chunk_).substr(0, count);
+        return count > 0;
     }
-    return result;
-}
+
+    const std::filesystem::path& path_;
+    FileParts& file_;
+    std::uint64_t next_;  ///< where the rest of the file begins
+    z_stream stream_{};
+    int status_ = Z_OK;
+    std::string compressed_;
+    std::string chunk_ = std::string(kStep, '\0');
+    std::string_view inflated_;  ///< what nobody has taken of the chunk
+};
 
 /// The number at `place` bytes from the start of the file.
 template <typename T>
-T number_at(const std::filesystem::path& file, std::string_view bytes, std::uint64_t place) {
-    if (place > bytes.size()) {
-        refuse(file, "the file is truncated");
+T number_at(const std::filesystem::path& path, FileParts& file, std::uint64_t place) {
+    const std::string bytes = file.read(place, sizeof(T));
+    if (bytes.size() < sizeof(T)) {
+        refuse(path, "the file is truncated");
     }
-    return ByteReader(file, bytes.substr(static_cast<std::size_t>(place))).number<T>();
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
 }
 
 /// Where the mesh begins, by the dictionary at the end of the file.
-std::uint64_t offset_of(const std::filesystem::path& file, std::string_view bytes, int version, int index) {
+std::uint64_t offset_of(const std::filesystem::path& path, FileParts& file, int version, int index) {
     if (index == 0) {
         return 0;
     }
-    const auto count = number_at<std::uint32_t>(file, bytes, bytes.size() - sizeof(std::uint32_t));
+    const auto count = number_at<std::uint32_t>(path, file, file.size() - sizeof(std::uint32_t));
     if (index < 0 || static_cast<std::uint32_t>(index) >= count) {
-        refuse(file, "has " + std::to_string(count) + " meshes, and no mesh with the index " +
+        refuse(path, "has " + std::to_string(count) + " meshes, and no mesh with the index " +
                          std::to_string(index));
     }
     const std::uint64_t behind = count - static_cast<std::uint32_t>(index);
     const std::uint64_t entry = version == 3 ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
     const std::uint64_t from_end = entry * behind + sizeof(std::uint32_t);
-    if (from_end > bytes.size()) {
-        refuse(file, "the file is truncated");
+    if (from_end > file.size()) {
+        refuse(path, "the file is truncated");
     }
-    const std::uint64_t place = bytes.size() - from_end;
-    return version == 3 ? number_at<std::uint32_t>(file, bytes, place)
-                        : number_at<std::uint64_t>(file, bytes, place);
+    const std::uint64_t place = file.size() - from_end;
+    return version == 3 ? number_at<std::uint32_t>(path, file, place)
+                        : number_at<std::uint64_t>(path, file, place);
 }
 
-std::vector<float> floats(ByteReader& reader, std::uint64_t count, bool is_double) {
+std::vector<float> floats(InflatingReader& reader, std::uint64_t count, bool is_double) {
     if (!is_double) {
         return reader.array<float>(count);
     }
@@ -149,7 +191,7 @@ void check_counts(const std::filesystem::path& file, std::uint64_t vertices, std
     }
 }
 
-Mesh read_arrays(const std::filesystem::path& file, ByteReader& reader, int version) {
+Mesh read_arrays(const std::filesystem::path& file, InflatingReader& reader, int version) {
     const auto flags = reader.number<std::uint32_t>();
     if (version == 4) {
         reader.skip_terminated_text();
@@ -159,6 +201,7 @@ Mesh read_arrays(const std::filesystem::path& file, ByteReader& reader, int vers
     check_counts(file, vertex_count, face_count);
     const bool is_double = (flags & kDoublePrecision) != 0;
     Mesh mesh;
+    mesh.face_normals = (flags & kFaceNormals) != 0;
     mesh.positions = vectors(floats(reader, 3 * vertex_count, is_double));
     if ((flags & kHasNormals) != 0) {
         mesh.normals = vectors(floats(reader, 3 * vertex_count, is_double));
@@ -170,7 +213,7 @@ Mesh read_arrays(const std::filesystem::path& file, ByteReader& reader, int vers
         }
     }
     if ((flags & kHasColors) != 0) {
-        static_cast<void>(floats(reader, 3 * vertex_count, is_double));
+        mesh.colors = vectors(floats(reader, 3 * vertex_count, is_double));
     }
     const std::vector<std::uint32_t> indices = reader.array<std::uint32_t>(3 * face_count);
     for (std::size_t i = 0; i < indices.size(); i += 3) {
@@ -181,16 +224,16 @@ Mesh read_arrays(const std::filesystem::path& file, ByteReader& reader, int vers
 
 /// Version 5 has records of eight floats a vertex (position, normal, texture coordinates) and four words a
 /// triangle.
-Mesh read_records(const std::filesystem::path& file, ByteReader& reader) {
+Mesh read_records(const std::filesystem::path& file, InflatingReader& reader) {
     const auto flags = reader.number<std::uint32_t>();
     if ((flags & kPackedTangents) != 0) {
         refuse(file, "stores shading frames in its vertices, which cannot be read; save it without tangents");
     }
-    static_cast<void>(reader.array<char>(reader.number<std::uint32_t>()));  // the name
+    reader.skip(reader.number<std::uint32_t>());  // the name
     const auto vertex_count = reader.number<std::uint64_t>();
     const auto face_count = reader.number<std::uint64_t>();
     check_counts(file, vertex_count, face_count);
-    static_cast<void>(reader.array<std::uint64_t>(2));  // surface points and groups of normals
+    reader.skip(2 * sizeof(std::uint64_t));  // the counts of surface points and groups of normals
     Mesh mesh;
     mesh.face_normals = (flags & kPackedFaceNormals) != 0;
     const std::vector<float> vertices = reader.array<float>(8 * vertex_count);
@@ -212,28 +255,26 @@ Mesh read_records(const std::filesystem::path& file, ByteReader& reader) {
 
 }  // namespace
 
-Mesh read_serialized(const std::filesystem::path& file, int index) {
-    const std::string text = read_file_text(file);
-    ByteReader header(file, text);
-    if (header.number<std::uint16_t>() != kMagic) {
-        refuse(file, "is not a serialized mesh of Mitsuba");
+Mesh read_serialized(const std::filesystem::path& path, int index) {
+    FileParts file(path);
+    if (number_at<std::uint16_t>(path, file, 0) != kMagic) {
+        refuse(path, "is not a serialized mesh of Mitsuba");
     }
-    const int version = header.number<std::uint16_t>();
+    const int version = number_at<std::uint16_t>(path, file, sizeof kMagic);
     if (version < 3 || version > 5) {
-        refuse(file, "has the version " + std::to_string(version) + "; known ones are 3, 4 and 5");
+        refuse(path, "has the version " + std::to_string(version) + "; known ones are 3, 4 and 5");
     }
-    const std::uint64_t begin = offset_of(file, text, version, index) + kHeaderSize;
-    if (begin > text.size()) {
-        refuse(file, "the file is truncated");
+    const std::uint64_t begin = offset_of(path, file, version, index) + kHeaderSize;
+    if (begin < kHeaderSize || begin > file.size()) {
+        refuse(path, "the file is truncated");
     }
-    const std::string data =
-        inflate_stream(file, std::string_view(text).substr(static_cast<std::size_t>(begin)));
-    ByteReader reader(file, data);
-    Mesh mesh = version == 5 ? read_records(file, reader) : read_arrays(file, reader, version);
+    InflatingReader reader(path, file, begin);
+    Mesh mesh = version == 5 ? read_records(path, reader) : read_arrays(path, reader, version);
+    reader.finish();
     if (mesh.triangles.empty()) {
-        refuse(file, "has no triangles");
+        refuse(path, "has no triangles");
     }
-    mesh.source = file;
+    mesh.source = path;
     return mesh;
 }
 

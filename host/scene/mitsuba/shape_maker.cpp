@@ -243,7 +243,7 @@ MeshFile ShapeMaker::read_file(const Object& shape) {
 // says otherwise.
 ShapeMaker::LoadedMesh ShapeMaker::load_file(const Object& shape) {
     MeshFile file = read_file(shape);
-    note_short_faces(file.mesh, file.short_faces, notes_);
+    note_what_is_left_out(file, notes_);
     LoadedMesh loaded;
     if (shape.is_old && shape.type == "obj") {
         loaded.materials = materials_by_name(shape, file);

@@ -77,12 +77,16 @@ double SurfaceModels::index_of_refraction(const Object& bsdf, const std::string&
     } else {
         index = bsdf.number(name, fallback);
     }
-    if (!(index > 0.0)) {
-        note(notes_, property->where,
-             "'" + name + "' is not greater than 0; " + std::to_string(fallback) + " is used");
-        return fallback;
+    return positive_index(index, property->where, name, fallback);
+}
+
+double SurfaceModels::positive_index(double index, const Location& where, const std::string& name,
+                                     double fallback) {
+    if (index > 0.0) {
+        return index;
     }
-    return index;
+    note(notes_, where, "'" + name + "' is not greater than 0; " + std::to_string(fallback) + " is used");
+    return fallback;
 }
 
 double SurfaceModels::index_ratio(const Object& bsdf, double interior) {
@@ -235,20 +239,33 @@ Material SurfaceModels::make_glass(const Object& bsdf) {
     return material;
 }
 
-// The index from `eta`, or from `specular`, a scale that Disney's model has for indices from 1 to 1.8.
+// `specular` is a scale that Disney's model has for indices from 1 to 1.8.
+double SurfaceModels::index_of_specular(const Object& bsdf) {
+    constexpr float kUsualSpecular = 0.5f;
+    const Vec3 given = bsdf.texture("specular") != nullptr
+                           ? textures_.color(bsdf, "specular", {}, false)
+                           : textures_.number(bsdf, "specular", kUsualSpecular).value;
+    const auto specular = static_cast<double>(std::clamp(luminance(given), 0.0f, 1.0f));
+    return 2.0 / (1.0 - std::sqrt(0.08 * specular)) - 1.0;
+}
+
+double SurfaceModels::index_of_eta(const Object& bsdf) {
+    const Object* const texture = bsdf.texture("eta");
+    if (texture == nullptr) {
+        return index_of_refraction(bsdf, "eta", kUsualIndex);
+    }
+    return positive_index(static_cast<double>(luminance(textures_.color(bsdf, "eta", {}, false))),
+                          texture->where, "eta", kUsualIndex);
+}
+
 double SurfaceModels::principled_index(const Object& bsdf, bool transmits) {
-    if (bsdf.texture("eta") != nullptr) {
-        return static_cast<double>(textures_.color(bsdf, "eta", {}, false).x);
-    }
-    const bool is_thin = bsdf.type == "principledthin";
-    double eta = kUsualIndex;
-    if (bsdf.has("eta") || is_thin) {
-        eta = index_of_refraction(bsdf, "eta", kUsualIndex);
+    const auto is_given = [&](const char* key) { return bsdf.has(key) || bsdf.texture(key) != nullptr; };
+    const bool has_eta = is_given("eta") || bsdf.type == "principledthin";
+    if (is_given("eta") && is_given("specular")) {
+        note(notes_, bsdf.where, "'specular' is ignored beside 'eta'");
         bsdf.ignore({"specular"});
-    } else {
-        const double specular = static_cast<double>(textures_.number(bsdf, "specular", 0.5f).value.x);
-        eta = 2.0 / (1.0 - std::sqrt(0.08 * specular)) - 1.0;
     }
+    const double eta = has_eta ? index_of_eta(bsdf) : index_of_specular(bsdf);
     return transmits && std::abs(eta - 1.0) < kMinIndexStep ? 1.0 + kMinIndexStep : eta;
 }
 

@@ -46,7 +46,12 @@ class SurfaceModels {
     void read_base_and_lobe(const Object& bsdf, Material& material);
     void read_metal(const Object& bsdf, Material& material);
     double index_of_refraction(const Object& bsdf, const std::string& name, double fallback);
+    /// The index, or `fallback` with a note if it makes no sense.
+    double positive_index(double index, const Location& where, const std::string& name, double fallback);
     double index_ratio(const Object& bsdf, double interior);
+    double index_of_specular(const Object& bsdf);
+    double index_of_eta(const Object& bsdf);
+    /// The index of a `principled` or `principledthin`.
     double principled_index(const Object& bsdf, bool transmits);
     /// The roughness of a `rough…` BSDF, and flags of its microfacets.
     void read_microfacets(const Object& bsdf, Material& material);

@@ -22,7 +22,7 @@ Definitions::const_iterator longest_beginning(const Definitions& definitions, co
 
 }  // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& file)
+XmlFile::XmlFile(const std::filesystem::path& file, bool is_includer_old)
     : file_(std::make_shared<const std::filesystem::path>(file)), line_starts_{0} {
     const std::string text = read_file_text(file);
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -36,6 +36,8 @@ XmlFile::XmlFile(const std::filesystem::path& file)
     if (!result) {
         fail(location(result.offset), std::string("broken XML: ") + result.description());
     }
+    const pugi::xml_attribute version = document_.child("scene").attribute("version");
+    is_old_ = version.empty() ? is_includer_old : version.as_int() == 0;
 }
 
 Location XmlFile::location(std::ptrdiff_t offset) const {
@@ -70,10 +72,6 @@ std::string Element::required(const char* attribute) const {
         fail(where, std::string("<") + node.name() + "> needs an attribute '" + attribute + "'");
     }
     return text(attribute);
-}
-
-bool Element::is_old() const {
-    return node.root().child("scene").attribute("version").as_int(3) == 0;
 }
 
 double Element::number(const char* attribute, double fallback) const {
@@ -143,8 +141,8 @@ Mat4 read_rotation(const Element& element) {
         }
         fail(element.where, "rotate needs an axis that is not zero");
     }
-    return element.is_old() ? rotation(axis[0], axis[1], axis[2], angle)
-                            : rodrigues(axis[0], axis[1], axis[2], angle);
+    return element.is_old ? rotation(axis[0], axis[1], axis[2], angle)
+                          : rodrigues(axis[0], axis[1], axis[2], angle);
 }
 
 Mat4 read_operation(const Element& element) {
@@ -176,7 +174,8 @@ Mat4 read_transform(const XmlFile& file, const Element& element) {
     Mat4 transform;
     for (const pugi::xml_node& node : element.node.children()) {
         if (node.type() == pugi::node_element) {
-            transform = read_operation({node, file.location(node), element.definitions}) * transform;
+            transform =
+                read_operation({node, file.location(node), element.definitions, element.is_old}) * transform;
         }
     }
     return transform;

@@ -15,10 +15,13 @@ namespace nearlight::core::mitsuba {
 
 class XmlFile {
   public:
-    /// Reads a file. Throws Error(ErrorKind::file) if it is missing or not well-formed.
-    explicit XmlFile(const std::filesystem::path& file);
+    /// Reads a file. Where it is not a scene that states a version, it has that of the file which includes
+    /// it. Throws Error(ErrorKind::file) if it is missing or not well-formed.
+    explicit XmlFile(const std::filesystem::path& file, bool is_includer_old = false);
 
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
+    /// Whether the file is one of Mitsuba 0.5 or 0.6. A scene that states no version is not.
+    [[nodiscard]] bool is_old() const { return is_old_; }
     [[nodiscard]] Location location(const pugi::xml_node& node) const {
         return location(node.offset_debug());
     }
@@ -29,6 +32,7 @@ class XmlFile {
     std::shared_ptr<const std::filesystem::path> file_;
     pugi::xml_document document_;
     std::vector<std::ptrdiff_t> line_starts_;
+    bool is_old_ = false;
 };
 
 /// The value that stands for a $name.
@@ -44,14 +48,13 @@ struct Element {
     pugi::xml_node node;
     Location where;
     const Definitions& definitions;
+    bool is_old = false;  ///< the file is one of Mitsuba 0.5 or 0.6
 
     [[nodiscard]] bool has(const char* attribute) const { return !node.attribute(attribute).empty(); }
     /// The text of an attribute; "" if there is no such attribute. Calls fail() for an undefined $name.
     [[nodiscard]] std::string text(const char* attribute) const;
     [[nodiscard]] std::string required(const char* attribute) const;
     [[nodiscard]] double number(const char* attribute, double fallback) const;
-    /// Whether the file is one of Mitsuba 0.5 or 0.6. One that states no version is not.
-    [[nodiscard]] bool is_old() const;
     /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. If `single`, one
     /// number stands for all three.
     [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;

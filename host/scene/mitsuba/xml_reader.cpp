@@ -69,7 +69,7 @@ class Reader {
 
   private:
     const Object* read_object(const XmlFile& file, const pugi::xml_node& node, int depth) {
-        const Element element{node, file.location(node), definitions_};
+        const Element element{node, file.location(node), definitions_, file.is_old()};
         if (depth > kMaxXmlDepth) {
             fail(element.where, "elements are nested too deeply");
         }
@@ -80,7 +80,7 @@ class Reader {
         }
         object->where = element.where;
         object->id = element.text("id");
-        object->is_old = element.is_old();
+        object->is_old = element.is_old;
         if (object->tag == "texture" && element.node.name() == std::string("blackbody")) {
             read_old_blackbody(element, *object);
         } else {
@@ -106,7 +106,7 @@ class Reader {
     void read_children(const XmlFile& file, const pugi::xml_node& parent, Object& object, int depth) {
         for (const pugi::xml_node& node : parent.children()) {
             if (node.type() == pugi::node_element) {
-                read_child(file, {node, file.location(node), definitions_}, object, depth);
+                read_child(file, {node, file.location(node), definitions_, file.is_old()}, object, depth);
             }
         }
     }
@@ -132,7 +132,7 @@ class Reader {
             Property property{read_value(file, element, tag), element.where};
             const std::string name = snake_case(element.required("name"));
             if (parent.properties.contains(name)) {
-                if (!element.is_old()) {
+                if (!element.is_old) {
                     fail(element.where, "property '" + name + "' is given twice");
                 }
                 note(notes_, element.where, "property '" + name + "' is given twice; this one counts");
@@ -149,11 +149,12 @@ class Reader {
         if (!std::filesystem::is_regular_file(path, ignored)) {
             fail(element.where, "included file '" + path.string() + "' cannot be read");
         }
-        const XmlFile file(path);
+        const XmlFile file(path, element.is_old);
         if (file.root().name() == std::string("scene")) {
             read_children(file, file.root(), parent, depth + 1);
         } else {
-            read_child(file, {file.root(), file.location(file.root()), definitions_}, parent, depth + 1);
+            read_child(file, {file.root(), file.location(file.root()), definitions_, file.is_old()}, parent,
+                       depth + 1);
         }
     }
 
@@ -183,7 +184,7 @@ class Reader {
             return element.required("value");
         }
         if (tag == "rgb") {
-            return parse_rgb(element.required("value"), element.where, {.is_hex_srgb = !element.is_old()});
+            return parse_rgb(element.required("value"), element.where, {.is_hex_srgb = !element.is_old});
         }
         if (tag == "srgb") {
             return parse_rgb(element.required("value"), element.where, {.are_numbers_srgb = true});
@@ -208,7 +209,7 @@ class Reader {
         // Mitsuba 0.5 took three numbers, or a colour code, for linear sRGB, and one number for white light.
         const bool is_curve = text.find(':') != std::string::npos;
         const bool is_color = split_words(text).size() > 1 || text.find('#') != std::string::npos;
-        if (!is_curve && (is_color || element.is_old())) {
+        if (!is_curve && (is_color || element.is_old)) {
             return parse_rgb(text, element.where);
         }
         return parse_spectrum(text, element.where);

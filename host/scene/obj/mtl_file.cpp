@@ -37,6 +37,19 @@ void restore_names(MaterialLibrary& library) {
     }
 }
 
+/// A texture of the highlight's colour alone gives it, as those of other colours do. Mirrors (illum 3 and 5),
+/// of which such a texture is left out, would mirror all light.
+void complete_highlights(MaterialLibrary& library) {
+    for (tinyobj::material_t& entry : library.materials) {
+        const auto begin = library.lines.find(entry.name);
+        if (!entry.specular_texname.empty() && entry.illum != 3 && entry.illum != 5 &&
+            begin != library.lines.end() &&
+            find_in_block(library.text, begin->second, "newmtl", "Ks", "") == 0) {
+            std::ranges::fill(entry.specular, 1.0f);
+        }
+    }
+}
+
 bool is_number(const std::string& word) {
     return number_in(word).has_value();
 }
@@ -113,6 +126,7 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file, s
     tinyobj::LoadMtl(&library.names, &library.materials, &stream, &warning, &error);
     restore_names(library);
     library.lines = lines_by_value(library.text, "newmtl");
+    complete_highlights(library);
     return library;
 }
 

@@ -33,6 +33,11 @@ std::optional<std::array<float, 6>> numbers_of_colored_vertex(std::string_view l
     return at == end ? std::optional(numbers) : std::nullopt;
 }
 
+/// Whether the line that begins at this place, and is not blank, is a comment.
+bool is_comment(std::string_view text, std::size_t begin) {
+    return text[text.find_first_not_of(" \t", begin)] == '#';
+}
+
 uint group_of(const std::string& word) {
     if (word == "off" || word == "null") {
         return 0;
@@ -54,9 +59,10 @@ void tidy_lines(std::string& text) {
     std::string joined;
     std::size_t taken = 0;
     std::size_t missing = 0;  // line ends that were taken out
+    std::size_t begin = 0;    // of the line
     for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1)) {
         const std::size_t last = end > 0 && text[end - 1] == '\r' ? end - 1 : end;
-        if (last > taken && text[last - 1] == '\\') {
+        if (last > taken && text[last - 1] == '\\' && (missing > 0 || !is_comment(text, begin))) {
             joined.append(text, taken, last - 1 - taken).append(" ");
             taken = end + 1;
             ++missing;
@@ -65,6 +71,7 @@ void tidy_lines(std::string& text) {
             taken = end + 1;
             missing = 0;
         }
+        begin = end + 1;
     }
     if (taken > 0) {
         text = joined.append(text, taken);

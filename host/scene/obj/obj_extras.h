@@ -11,7 +11,7 @@
 namespace nearlight::core {
 
 /// Makes each line end with a line feed, as carriage returns alone end lines too, and joins lines that end
-/// with a backslash with the next ones. Later lines keep their numbers.
+/// with a backslash with the next ones, unless they are comments. Later lines keep their numbers.
 void tidy_lines(std::string& text);
 
 /// Faces from `first_face` on, counted from 0, belong to this group of `s` lines; 0 is none.

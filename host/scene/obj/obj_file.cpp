@@ -3,6 +3,8 @@
 
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
+#include <array>
 #include <istream>
 #include <limits>
 #include <optional>
@@ -32,6 +34,17 @@ int line_of_face(std::string_view text, std::size_t face) {
             found = number;
         }
         return found == 0;
+    });
+    return found;
+}
+
+/// Whether the file has elements that are no faces.
+bool has_other_elements(std::string_view text) {
+    bool found = false;
+    for_each_line(text, [&](int, std::string_view line) {
+        found = std::ranges::any_of(std::array{"p", "l", "curv", "curv2", "surf"},
+                                    [&](const char* word) { return starts_with_word(line, word); });
+        return !found;
     });
     return found;
 }
@@ -243,6 +256,7 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
         obj.libraries.emplace(line.number, name);
     }
+    obj.has_other_elements = use == ObjUse::scene && has_other_elements(obj.text);
     ObjBuilder builder(obj, use);
     TextBuffer buffer(obj.text);
     std::istream stream(&buffer);
@@ -258,11 +272,14 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
     return obj;
 }
 
-void note_short_faces(const Mesh& mesh, std::size_t short_faces, NoteSink& notes) {
-    if (short_faces > 0) {
+void note_what_is_left_out(const ObjFile& obj, NoteSink& notes) {
+    if (obj.short_faces > 0) {
         notes.approximation(
-            mesh.source, 0,
-            std::to_string(short_faces) + " faces with fewer than three corners are left out");
+            obj.mesh.source, 0,
+            std::to_string(obj.short_faces) + " faces with fewer than three corners are left out");
+    }
+    if (obj.has_other_elements) {
+        notes.approximation(obj.mesh.source, 0, "points, lines and free-form surfaces are left out");
     }
 }
 

@@ -29,6 +29,9 @@ struct ObjFile {
     std::map<int, std::string> libraries;
     std::string text;             ///< of the file, to find lines in, with continued lines joined
     std::size_t short_faces = 0;  ///< faces of fewer than three corners, which were left out
+    /// Points, lines or free-form surfaces were left out. Always false for shapes of Mitsuba, which leaves
+    /// them out, too.
+    bool has_other_elements = false;
     std::size_t crooked_faces =
         0;  ///< faces with so many corners that they became fans though they are not convex
 };
@@ -37,7 +40,7 @@ struct ObjFile {
 /// index out of range, and for a file without a triangle. Files may be read by several threads at once.
 ObjFile read_obj(const std::filesystem::path& file, ObjUse use);
 
-/// Notes that faces of the mesh's file were left out, if any were.
-void note_short_faces(const Mesh& mesh, std::size_t short_faces, NoteSink& notes);
+/// Notes what was left out of the file, if anything was.
+void note_what_is_left_out(const ObjFile& obj, NoteSink& notes);
 
 }  // namespace nearlight::core

@@ -15,7 +15,7 @@ Scene load_obj_scene(const std::filesystem::path& file, const LoadOptions& optio
     NoteSink notes(scene.notes, options.strict);
     {
         const ObjFile obj = read_obj(file, ObjUse::scene);
-        note_short_faces(obj.mesh, obj.short_faces, notes);
+        note_what_is_left_out(obj, notes);
         if (obj.crooked_faces > 0) {
             notes.approximation(
                 file, 0,

@@ -198,6 +198,9 @@ class ObjMaterials {
         material.specular = parameter_of(clamped(to_vec3(source.entry.specular)));
         material.specular.texture =
             load(source, {source.entry.specular_texname, source.entry.specular_texopt, "map_Ks"}, {});
+        if (material.specular.texture < 0 && !says(source, "Ks")) {
+            material.specular = parameter_of(0.5f);  // the image cannot be read
+        }
         return material;
     }
 
