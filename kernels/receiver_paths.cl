@@ -11,7 +11,7 @@
 // `shares` says with NEARLIGHT_SHARES_… what goes not to the receiver, but to one light of each kind, for
 // shared_lights.cl, shared_sky.cl, shared_veiled.cl and shared_reflections.cl to take further. Reflections
 // want the `spacing` of each receiver, which receiver_spacing finds: one work-item for each `part` receivers
-// of a bundle, which `part` divides; any work-group size.
+// of a bundle, where `part` must divide BUNDLE_RECEIVERS; any work-group size.
 //
 // caustic_errors says what receivers gain if they aim at mirrors and glass.
 
@@ -216,7 +216,7 @@ static inline float neighbourhood_radius(const SharingPlaces* places, uint lane)
         const float16 z = vload16(row, places->z) - places->z[lane];
         squared[row] = x * x + y * y + z * z;
     }
-    for (float limit = places->squared_extent;; limit *= 0.5f) {
+    for (float limit = fmin(places->squared_extent, FLT_MAX);; limit *= 0.5f) {
         uint inside = 0;
         for (uint row = 0; row < BUNDLE_ROWS; ++row) {
             inside += popcount(lane_bits16(squared[row] < 0.5f * limit));

@@ -24,11 +24,10 @@
 #include "lib/curve.cl"
 #include "lib/shared_light.cl"
 
-#define SHARED_LIGHT_PURPOSE 0x5a4edu  // of random numbers
-
+/// `purpose` gives each kind of lights random numbers of its own.
 kernel void shared_light_choose(const global ReceiverPacket* restrict receivers, uint packet_count,
                                 const global SharedLight* restrict found, uint wanted, uint seed,
-                                global uint* restrict listed, global float* restrict factors,
+                                uint purpose, global uint* restrict listed, global float* restrict factors,
                                 global uint* restrict lengths) {
     const uint index = (uint)get_global_id(0);
     const Bundle bundle = bundle_at(index, packet_count);
@@ -42,7 +41,7 @@ kernel void shared_light_choose(const global ReceiverPacket* restrict receivers,
         total += found[i].weight;
     }
     const float per_weight = total > 0.0f ? (float)wanted / total : 0.0f;
-    float place = total > 0.0f ? bundle_number(receivers, &bundle, seed, SHARED_LIGHT_PURPOSE) : 0.0f;
+    float place = total > 0.0f ? bundle_number(receivers, &bundle, seed, purpose) : 0.0f;
     uint length = 0;
     for (uint i = first; i < end; ++i) {
         const float p = fmin(1.0f, found[i].weight * per_weight);

@@ -17,8 +17,8 @@
 
 #define MAX_SPLAT_COLUMNS (2 * NEARLIGHT_MAX_SPLAT_REACH + 1)
 
-/// The filter at the middles of the pixels that a sample reaches along one axis. They are in units in which
-/// the integral of the filter is 1 / pixel.
+/// The filter at the middles of the pixels that a sample reaches along one axis, in 1/pixel and scaled so
+/// that its integral is 1.
 static inline void filter_weights(const global Camera* camera, float offset, float* weights) {
     const int reach = (int)camera->splat_reach;
     const global float* integral = camera->filter_signed;

@@ -86,7 +86,8 @@ Vec3 base_color(const Point& at) {
     }
     const bool saturates = (m.flags & NEARLIGHT_MATERIAL_NONLINEAR) != 0;
     const auto channel = [&](float x) {
-        return x / ((1.0f - m.internal_reflectance * (saturates ? x : 1.0f)) * m.eta.x * m.eta.x);
+        return x /
+               ((1.0f - m.internal_reflectance * (saturates ? std::min(x, 1.0f) : 1.0f)) * m.eta.x * m.eta.x);
     };
     return {channel(rho.x), channel(rho.y), channel(rho.z)};
 }

@@ -7,6 +7,7 @@
 namespace nearlight::core {
 namespace {
 
+constexpr uint kRandomPurpose = 0x5a4e0u;
 constexpr std::size_t kMaskWords = kBundleReceivers / 32;
 
 Kernel visibility_kernel(Device& device, GatherKernel kernel) {
@@ -35,28 +36,28 @@ void SharedLightLists::make_room(std::size_t bundle_count) {
     ensure_room(seen_by_, *device_, entries * kMaskWords);
 }
 
-void SharedLightLists::make(const ReceiverBatch& batch, float max_distance, const Buffer<SharedLight>& found,
-                            uint count, Hiding hiding) {
+void SharedLightLists::make(const ReceiverBatch& batch, const SharedLightKind& kind,
+                            const Buffer<SharedLight>& found) {
     const DeviceScene& scene = batch.scene;
     const ReceiverPathSettings& settings = batch.settings;
     const auto packets = static_cast<uint>(batch.packet_count);
     const std::size_t bundle_count = BundleLayout{packets}.bundle_count();
     make_room(bundle_count);
-    choose_.launch_items(bundle_count, batch.receivers, packets, found, count, settings.seed, listed_,
-                         factors_, lengths_);
+    choose_.launch_items(bundle_count, batch.receivers, packets, found, kind.count, settings.seed,
+                         kRandomPurpose + kind.shares, listed_, factors_, lengths_);
     const auto launch_on = [&](std::size_t items, std::size_t local_size, const auto& nodes,
                                const auto& triangles, const auto&... rest) {
         visibility_.launch(items, local_size, nodes, triangles, batch.receivers, packets, found,
-                           max_distance * max_distance, settings.max_edges, settings.rays, listed_, lengths_,
-                           factors_, seen_by_, rest...);
+                           kind.max_distance * kind.max_distance, settings.max_edges, settings.rays, listed_,
+                           lengths_, factors_, seen_by_, rest...);
     };
     if (kernel_ == GatherKernel::rays) {
         launch_on(bundle_count * NEARLIGHT_SHARED_LIST, device_->tunables().local_size, scene.tree.nodes,
-                  hiding == Hiding::solids ? scene.solid_triangles() : scene.tree.triangles);
+                  kind.hiding == Hiding::solids ? scene.solid_triangles() : scene.tree.triangles);
     } else {
         next_bundle_.fill_zero();
         launch_on(bundle_count, 1, scene.tree.wide_nodes,
-                  hiding == Hiding::solids ? scene.solid_blocks() : scene.tree.blocks, next_bundle_);
+                  kind.hiding == Hiding::solids ? scene.solid_blocks() : scene.tree.blocks, next_bundle_);
     }
 }
 

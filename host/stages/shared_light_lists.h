@@ -4,6 +4,8 @@
 // shared_light_packets.cl and shared_light_rays.cl.
 #pragma once
 
+#include <limits>
+
 #include "host/cl/kernel.h"
 #include "host/stages/device_scene.h"
 #include "host/stages/receiver_paths.h"
@@ -18,6 +20,14 @@ enum class Hiding {
     solids,    ///< all but veils, whose transmittance is left to the gather
 };
 
+/// What bundles share of what their rays find.
+struct SharedLightKind {
+    uint shares = 0;  ///< one of NEARLIGHT_SHARES_…, which gives each kind random numbers of its own
+    uint count = 0;   ///< about how many a bundle uses
+    float max_distance = std::numeric_limits<float>::infinity();  ///< of lights from their receivers, m
+    Hiding hiding = Hiding::surfaces;
+};
+
 /// Stages that bring the light of shared lights make lists and use them at once, so that one object, with its
 /// device memory, serves all of them.
 class SharedLightLists {
@@ -25,11 +35,9 @@ class SharedLightLists {
     /// Begins to compile the kernels. `kernel` is that of the gather.
     SharedLightLists(Device& device, GatherKernel kernel);
 
-    /// Lists about `count` of the lights that ReceiverPaths::run_sharing() found, at most
-    /// NEARLIGHT_SHARED_LIGHTS, for each bundle. Light of farther places than `max_distance` (m) is left out.
-    /// The tree of the scene must be uploaded for the gather kernel.
-    void make(const ReceiverBatch& batch, float max_distance, const Buffer<SharedLight>& found, uint count,
-              Hiding hiding = Hiding::surfaces);
+    /// Lists for each bundle about as many of the lights that ReceiverPaths::run_sharing() found as the kind
+    /// says. The tree of the scene must be uploaded for the gather kernel.
+    void make(const ReceiverBatch& batch, const SharedLightKind& kind, const Buffer<SharedLight>& found);
 
     /// Calls visit(buffer) for listed, factors, lengths and seen_by, in the order in which kernels take them.
     template <typename Visitor>

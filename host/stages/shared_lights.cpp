@@ -13,7 +13,9 @@ SharedLights::SharedLights(Device& device)
 void SharedLights::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                        Buffer<IrradiancePacket>& irradiance) {
     const float radius = batch.settings.clamp_radius;
-    lists.make(batch, radius, found, NEARLIGHT_SHARED_LIGHTS);
+    lists.make(batch,
+               {.shares = NEARLIGHT_SHARES_NEAR, .count = NEARLIGHT_SHARED_LIGHTS, .max_distance = radius},
+               found);
     const Buffer<float>* curves = batch.scene.curves_in_use();
     gather_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.receivers,
                          static_cast<uint>(batch.packet_count), found,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shared_reflections.h"
 
-#include <limits>
-
 #include "host/base/receiver_bundles.h"
 #include "host/stages/bundle_light.h"
 
@@ -13,7 +11,8 @@ SharedReflections::SharedReflections(Device& device)
 
 void SharedReflections::add(const ReceiverBatch& batch, SharedLightLists& lists, const FoundLights& found,
                             Buffer<IrradiancePacket>& irradiance) {
-    lists.make(batch, std::numeric_limits<float>::infinity(), found.reflected, NEARLIGHT_SHARED_REFLECTIONS);
+    lists.make(batch, {.shares = NEARLIGHT_SHARES_REFLECTIONS, .count = NEARLIGHT_SHARED_REFLECTIONS},
+               found.reflected);
     const auto packets = static_cast<uint>(batch.packet_count);
     gather_.launch_bundles(BundleLayout{packets}.bundle_count(), batch.scene, batch.receivers, packets,
                            found.reflected, found.reflections, found.spacing, lists, irradiance,

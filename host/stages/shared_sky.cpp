@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shared_sky.h"
 
-#include <limits>
-
 namespace nearlight::core {
 
 SharedSky::SharedSky(Device& device)
@@ -10,8 +8,10 @@ SharedSky::SharedSky(Device& device)
 
 void SharedSky::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                     const SeenSurfaces& seen, Buffer<IrradiancePacket>& irradiance) {
-    lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_SKY_LIGHTS,
-               Hiding::solids);
+    lists.make(
+        batch,
+        {.shares = NEARLIGHT_SHARES_SKY, .count = NEARLIGHT_SHARED_SKY_LIGHTS, .hiding = Hiding::solids},
+        found);
     const SharedSkyParams params{.packet_count = static_cast<uint>(batch.packet_count),
                                  .rays = batch.settings.rays,
                                  .light_samples = batch.settings.light_samples,

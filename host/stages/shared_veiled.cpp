@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shared_veiled.h"
 
-#include <limits>
-
 #include "host/base/receiver_bundles.h"
 #include "host/stages/bundle_light.h"
 
@@ -13,8 +11,11 @@ SharedVeiled::SharedVeiled(Device& device)
 
 void SharedVeiled::add(const ReceiverBatch& batch, SharedLightLists& lists, const Buffer<SharedLight>& found,
                        Buffer<IrradiancePacket>& irradiance) {
-    lists.make(batch, std::numeric_limits<float>::infinity(), found, NEARLIGHT_SHARED_VEILED_LIGHTS,
-               Hiding::solids);
+    lists.make(batch,
+               {.shares = NEARLIGHT_SHARES_VEILED,
+                .count = NEARLIGHT_SHARED_VEILED_LIGHTS,
+                .hiding = Hiding::solids},
+               found);
     const auto packets = static_cast<uint>(batch.packet_count);
     gather_.launch_bundles(BundleLayout{packets}.bundle_count(), batch.scene, VeilsForRays{batch.scene},
                            batch.receivers, packets, found, lists, irradiance, BundleLight{});

@@ -4,8 +4,8 @@
 // Nodes and triangles are read as rows of four floats, because a GPU takes about as long for one float as for
 // four where each work-item reads somewhere else.
 //
-// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so the stack cannot overflow. A ray with NaN
-// hits nothing, because NaN makes every comparison false.
+// Stack: the builder bounds the depth (NEARLIGHT_MAX_BVH_DEPTH), so the stack cannot overflow. Rays with NaN
+// or infinity hit nothing (is_finite_ray()).
 #ifndef NEARLIGHT_LIB_BVH_TRAVERSE
 #define NEARLIGHT_LIB_BVH_TRAVERSE
 

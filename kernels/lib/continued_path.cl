@@ -150,7 +150,7 @@ typedef struct BundlePath {
     uint is_one;
     GlossyPlace place;
     ArrivingRay ray;  // by which the path goes on from the first surface
-    float3 own;       // what the receiver gets of light that arrives there and is not the bundle's
+    float3 own;       // factor from light that arrives there to the light of the receiver alone
 } BundlePath;
 
 /// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing

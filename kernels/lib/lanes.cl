@@ -16,7 +16,7 @@
 #define LANES_TRAILING_ZEROS
 #endif
 #endif
-// On x86 with mask registers, the result of a comparison is already a number.
+// With mask registers, x86 compares lanes into a bit mask, which one instruction gives.
 #if defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define LANES_MASK_REGISTERS
 typedef int LanesInt4 __attribute__((__vector_size__(16)));

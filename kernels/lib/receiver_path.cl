@@ -68,13 +68,17 @@ static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* 
     return receiver_ray_towards(scene, at, rays_per_light_sample, direction);
 }
 
-/// The light at the place that a ray met, which sends `radiance` to all sides. It counts in draws by what it
-/// brings to the receiver that found it, or at least a part of that, because others may be nearer.
+// The least weight of a light in draws, as a part of what it sends: other receivers may be in a better place
+// for it than the one that found it.
+#define OTHER_PLACES 0.05f
+
+/// The light at the place that a ray met, which sends `radiance` to all sides. Its weight in draws is what it
+/// brings to the receiver that found it, but not less than OTHER_PLACES says.
 static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
                                        float3 radiance, float of_vpls) {
     SharedLight light;
     light.position = store3(offset_point(scene, hit->position, hit->geometric));
-    light.weight = max_component(radiance) * fmax(1.0f - of_vpls, 0.05f);
+    light.weight = max_component(radiance) * fmax(1.0f - of_vpls, OTHER_PLACES);
     light.normal = store3(hit->geometric);
     light.curve = (ushort)way->curve;
     light.veils = 0;

@@ -61,7 +61,7 @@ static inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bou
         shaft->by_high[axis] = by_high[axis];
         shaft->near[axis] = down ? WIDE_UPPER : 0;
         shaft->by_near[axis] = down ? by_low[axis] : by_high[axis];
-        shaft->by_far[axis] = (down ? by_high[axis] : by_low[axis]) * (1.0f + SHAFT_SLACK);
+        shaft->by_far[axis] = (down ? by_high[axis] : by_low[axis]);
     }
     if (shaft->straddles) {
         shaft->near[0] = shaft->near[1] = shaft->near[2] = 0;
@@ -114,7 +114,8 @@ LANES_INLINE int8 children_in_shaft(const Shaft* shaft, float3 from, const globa
         enter = shaft->by_low[axis] < 0.0f ? max8(enter, high) : enter;
         leave = shaft->by_low[axis] < 0.0f ? leave : min8(leave, high);
     }
-    return enter <= leave;
+    // Drivers may round the reciprocals of the shaft and of its clusters differently.
+    return enter <= leave * (1.0f + SHAFT_SLACK);
 }
 
 /// −1 in the lanes of children that the shaft of one cluster may meet. Every segment of the cluster misses a

@@ -11,7 +11,8 @@
 typedef struct TextureValue {
     float3 color;
     float2 number;    // where the parameter is one number or two
-    float2 gradient;  // of the colour's luminance along u and v; 0 but for bitmaps with bilinear filter
+    float2 gradient;  // of the colour's luminance along u and v; 0 but for bitmaps with bilinear filter that
+                      // lie in no checkerboard
 } TextureValue;
 
 /// The index of the texel that stands at place i of a row or column of n texels.
@@ -129,7 +130,7 @@ static inline TextureValue look_up(const SceneView* scene, const global Paramete
     float3 field = (float3)(1.0f);  // of the checkerboards on the way
     const bool has_two_numbers = parameter->texture >= 0 && (scene->textures[parameter->texture].flags &
                                                              NEARLIGHT_TEXTURE_TWO_NUMBERS) != 0;
-    for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_BSDF_NESTING; ++nested) {
+    for (uint nested = 0; parameter->texture >= 0 && nested < NEARLIGHT_MAX_TEXTURE_NESTING; ++nested) {
         const global Texture* texture = scene->textures + parameter->texture;
         const float2 st = place_on_texture(texture, coordinates_for(scene, texture, hit));
         if (texture->kind == NEARLIGHT_TEXTURE_BITMAP) {
@@ -139,6 +140,9 @@ static inline TextureValue look_up(const SceneView* scene, const global Paramete
             }
             if (texture->flags & NEARLIGHT_TEXTURE_TIMES_COLOR) {
                 texel.color *= interpolated_color(scene, hit);
+            }
+            if (nested > 0) {
+                texel.gradient = (float2)(0.0f);  // Mitsuba's checkerboards have none
             }
             break;
         }

@@ -49,15 +49,16 @@ static inline AimTarget aim_target(const WalkAim* aim, uint number) {
     return target;
 }
 
-/// What the circle covers on which a walk passes around a target, by the number u in [0, 1): from `least`,
-/// what the target itself covers, to `most`.
-static inline float cover_around(float least, float most, float u) {
-    return least * pow(most / least, u);
+/// The cover of a ring around a target, for u in [0, 1): between `min_cover`, that of the target itself, and
+/// `max_cover`, each doubling is equally likely. Cover is the squared radius on a disk, and 1 − cosine of the
+/// half angle in a cone.
+static inline float cover_around(float min_cover, float max_cover, float u) {
+    return min_cover * pow(max_cover / min_cover, u);
 }
 
 /// The density of these covers.
-static inline float density_around(float least, float most, float cover) {
-    return 1.0f / (cover * log(most / least));
+static inline float density_around(float min_cover, float max_cover, float cover) {
+    return 1.0f / (cover * log(max_cover / min_cover));
 }
 
 /// The part of the walks that aims at each target, and all of them together.

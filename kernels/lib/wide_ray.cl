@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the wide tree by one ray, for CPUs: any hit and closest hit, with the eight boxes of a node in
 // one vector and the four triangles of a block in another. It finds what lib/bvh_traverse.cl finds, bit by
-// bit, except for rays that meet two triangles at the same distance.
+// bit, except for rays that meet two triangles at the same distance. Copies of its two functions wherever a
+// ray is traced would be no faster, but take longer to compile.
 //
 // Stack: a path has at most NEARLIGHT_MAX_BVH_DEPTH nodes, each of which leaves all of its children but one.
 #ifndef NEARLIGHT_LIB_WIDE_RAY
 #define NEARLIGHT_LIB_WIDE_RAY
 
+#include "lib/outlined.cl"
 #include "lib/ray.cl"
 #include "lib/wide_tree.cl"
 
 #if NEARLIGHT_WIDE_RAYS
 
 #define WIDE_RAY_STACK_SIZE ((NEARLIGHT_WIDE_CHILDREN - 1) * NEARLIGHT_MAX_BVH_DEPTH + 1)
-
-// Inlining these functions wherever a ray is traced makes them no faster, but takes longer to compile.
-#define ONCE_A_PROGRAM __attribute__((noinline))
 
 typedef struct WideRay {
     float3 origin, direction;
@@ -107,8 +106,8 @@ LANES_INLINE bool leaf_occludes(const global TriangleBlock* blocks, uint leaf, c
 }
 
 /// True if anything lies on the ray strictly inside (t_min, t_max).
-ONCE_A_PROGRAM bool wide_occluded(const global WideNode* nodes, const global TriangleBlock* blocks,
-                                  float3 origin, float3 direction, float t_min, float t_max) {
+OUTLINED bool wide_occluded(const global WideNode* nodes, const global TriangleBlock* blocks, float3 origin,
+                            float3 direction, float t_min, float t_max) {
     if (!is_finite_ray(origin, direction, t_max)) {
         return false;
     }
@@ -202,8 +201,8 @@ LANES_INLINE uint take_nearest(RayVisit* stack, uint* top, const global WideNode
 }
 
 /// The closest hit strictly inside (t_min, t_max). Its slot is 4 · block + column, or ~0u if nothing is hit.
-ONCE_A_PROGRAM RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
-                                       float3 origin, float3 direction, float t_min, float t_max) {
+OUTLINED RayHit wide_closest_hit(const global WideNode* nodes, const global TriangleBlock* blocks,
+                                 float3 origin, float3 direction, float t_min, float t_max) {
     RayHit best = {fmin(t_max, FLT_MAX), 0.0f, 0.0f, ~0u};
     if (!is_finite_ray(origin, direction, t_max)) {
         return best;

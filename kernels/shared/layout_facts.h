@@ -7,9 +7,9 @@
 #define NEARLIGHT_SHARED_LAYOUT_FACTS_H
 
 /// Expands to SIZE(struct), OFFSET(struct, member) or VALUE(constant expression) for each fact, in order. The
-/// place where it expands must include bsdf_query.h, camera_pass.h, film_layers.h, light.h, light_cut.h,
-/// light_tracer.h, local_lights.h, packet_order.h, receiver_paths.h, shared_light.h, splats.h, types.h and
-/// walk_aim.h.
+/// place where it expands must include bsdf_query.h, camera_pass.h, caustic_aims.h, film_layers.h, light.h,
+/// light_cut.h, light_tracer.h, local_lights.h, packet_order.h, receiver_paths.h, shared_light.h, splats.h,
+/// types.h and walk_aim.h.
 #define NEARLIGHT_LAYOUT_FACTS(SIZE, OFFSET, VALUE) \
     SIZE(BvhNode)                                   \
     OFFSET(BvhNode, left)                           \

@@ -59,7 +59,8 @@ typedef struct Emitter {
 /// A node of the tree of lights: the bounds of all lights below it. Its children stand one behind the other.
 typedef struct LightNode {
     Vec3 low;
-    float power;  // π times the greatest intensity, W: the luminance of a triangle's flux
+    float power;  // π times the luminance of the greatest intensity, W; for a triangle, the luminance of its
+                  // flux
     Vec3 high;
     float cos_spread;  // all lights face within this angle of the axis
     Vec3 axis;
@@ -69,7 +70,7 @@ typedef struct LightNode {
     float cos_beam;    // none shines farther than this angle from where it faces
     uint pad0;
 } LightNode;
-#define NEARLIGHT_LIGHT_TREE_WIDTH 8u       // most children of a node
+#define NEARLIGHT_LIGHT_TREE_WIDTH 8u       // max children of a node
 #define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 10u  // digits of Emitter.tree_way
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the

@@ -40,6 +40,7 @@ typedef struct Parameter {
 #define NEARLIGHT_BSDF_BUMP_MAP 20u  // child[0] on a surface displaced by reflectance.x (m) along its normal
 /// Resolving ends after this many steps; loaders refuse deeper nesting.
 #define NEARLIGHT_MAX_BSDF_NESTING 8
+#define NEARLIGHT_MAX_TEXTURE_NESTING 8  // checkerboards that lie within each other; loaders refuse more
 
 // Material.flags
 #define NEARLIGHT_MATERIAL_BECKMANN 1u   // microfacets have Beckmann's distribution; otherwise GGX

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/reference/bsdf/lookup.h"
 
+#include <algorithm>
+
 #include "host/scene/texture.h"
 
 namespace nearlight::core {
@@ -36,7 +38,10 @@ Vec3d coated_base(Vec3d base, const Material& material) {
     const double inside = material.internal_reflectance;
     const double eta = material.eta.x;
     const bool nonlinear = (material.flags & NEARLIGHT_MATERIAL_NONLINEAR) != 0u;
-    const auto channel = [&](double x) { return x / ((1 - inside * (nonlinear ? x : 1)) * eta * eta); };
+    // A texel above 1 would make the light between the base and the coat grow without an end.
+    const auto channel = [&](double x) {
+        return x / ((1 - inside * (nonlinear ? std::min(x, 1.0) : 1)) * eta * eta);
+    };
     return {channel(base.x), channel(base.y), channel(base.z)};
 }
 

@@ -293,8 +293,8 @@ Parameter TextureMaker::make_checkerboard(const Object& texture, Purpose purpose
     }
     set_uv_map(made.parameters, read_uv_map(texture), false);
     const Parameter board = textured(add_texture(scene_, made));
-    if (nesting(scene_, board) > NEARLIGHT_MAX_BSDF_NESTING) {
-        fail(texture.where, "more than " + std::to_string(NEARLIGHT_MAX_BSDF_NESTING) +
+    if (nesting(scene_, board) > NEARLIGHT_MAX_TEXTURE_NESTING) {
+        fail(texture.where, "more than " + std::to_string(NEARLIGHT_MAX_TEXTURE_NESTING) +
                                 " checkerboards lie within each other");
     }
     return board;

@@ -209,7 +209,9 @@ static inline float3 diffuse_color(const Bsdf* bsdf, const global Material* mate
         case NEARLIGHT_BSDF_WARD:
             return base;
         case NEARLIGHT_BSDF_PLASTIC: {
-            const float3 inside = bsdf->flags & NEARLIGHT_MATERIAL_NONLINEAR ? base : (float3)(1.0f);
+            // A texel above 1 would make the light between the base and the coat grow without an end.
+            const float3 inside =
+                bsdf->flags & NEARLIGHT_MATERIAL_NONLINEAR ? fmin(base, 1.0f) : (float3)(1.0f);
             return base / ((1.0f - inside * material->internal_reflectance) * bsdf->eta.x * bsdf->eta.x);
         }
         case NEARLIGHT_BSDF_PRINCIPLED: {

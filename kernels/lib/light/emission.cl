@@ -73,7 +73,8 @@ static inline float3 place_on_disk(float radius, float3 from, float2 u) {
 /// of the scene that are perpendicular to `from`.
 typedef struct AimShadow {
     float3 middle;
-    float least, most;  // squares of the distances from the middle between which walks pass around it, m²
+    float min_squared,
+        max_squared;  // squares of the distances from the middle between which walks pass around it, m²
 } AimShadow;
 
 static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* target, float3 from) {
@@ -81,15 +82,15 @@ static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* targ
     AimShadow shadow;
     shadow.middle = to_target - dot(to_target, from) * from;
     const float reach = scene->environment->scene_radius + length(shadow.middle);
-    shadow.least = target->radius * target->radius;
-    shadow.most = reach * reach;
+    shadow.min_squared = target->radius * target->radius;
+    shadow.max_squared = reach * reach;
     return shadow;
 }
 
 /// The place of a walk that aims at the target: within its shadow, or around it.
 static inline float3 place_about(const AimShadow* shadow, float3 from, float2 u) {
-    const float squared = u.x < PART_TOWARDS ? shadow->least * (u.x / PART_TOWARDS)
-                                             : cover_around(shadow->least, shadow->most,
+    const float squared = u.x < PART_TOWARDS ? shadow->min_squared * (u.x / PART_TOWARDS)
+                                             : cover_around(shadow->min_squared, shadow->max_squared,
                                                             (u.x - PART_TOWARDS) / (1.0f - PART_TOWARDS));
     return shadow->middle + to_world_frame((float3)(sqrt(squared) * circle_point(u.y), 0.0f), from);
 }
@@ -98,9 +99,9 @@ static inline float3 place_about(const AimShadow* shadow, float3 from, float2 u)
 static inline float density_about(const AimShadow* shadow, float3 place) {
     const float3 off = place - shadow->middle;
     const float squared = dot(off, off);
-    return squared < shadow->least
-               ? PART_TOWARDS / shadow->least
-               : (1.0f - PART_TOWARDS) * density_around(shadow->least, shadow->most, squared);
+    return squared < shadow->min_squared
+               ? PART_TOWARDS / shadow->min_squared
+               : (1.0f - PART_TOWARDS) * density_around(shadow->min_squared, shadow->max_squared, squared);
 }
 
 /// The targets that are of use to light that travels along −`from`: the sphere, unless it is about as large

@@ -82,8 +82,8 @@ static inline float light_node_importance(const global LightNode* node, const Li
     return node->power * fmax(emission.cosine, margin) * response / nearest_squared;
 }
 
-/// What the choice of a child follows evenly, in units of what follows importance: the most important lamp
-/// may be hidden, and one that is seldom chosen would then bring much light at once.
+/// How much of the choice of a child is even, relative to the part that follows importance: the most
+/// important lamp may be hidden, and a lamp that is seldom chosen would bring much light at once.
 #define EVEN_CHOICE 0.1f
 
 /// The children of a node, and how much each could bring.
