@@ -71,8 +71,8 @@ static inline uint sequence_key(uint pixel, uint sample, uint branch, uint seed)
 }
 
 OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint y, uint sample,
-                                      uint sequence_length, uint branch_count, uint seed) {
-    const CameraSample start = camera_sample(camera, x, y, sample, sequence_length, seed);
+                                      uint in_middle, uint branch_count, uint seed) {
+    const CameraSample start = camera_sample(camera, x, y, sample, in_middle, seed);
     CameraPath path;
     path.key = start.key;
     path.pixel_key = start.pixel_key;
@@ -105,8 +105,8 @@ static inline void set_receiver(const SceneView* scene, const global CloseRange*
     receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
 }
 
-/// What the surface at a step of a sample's path may ask of lights. One that paths must not leave reflects no
-/// light of lamps, but it shows in the other layers.
+/// What the surface at a step of a sample's path may ask of lights. A surface at which paths must end asks
+/// none, but shows in the layers of surfaces.
 static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sample) {
     const bool is_last = step + 1 >= limits->max_edges;
     const LightQuota quota = {is_last ? 0 : limits->light_samples, limits->light_rays,
@@ -260,8 +260,8 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
                     pixel_of_tile(row, lane / NEARLIGHT_TILE_SIZE, order.bundle_rows, order.interleave));
     const uint2 at = launched_pixel(params.list, pixels, order.tile_columns * NEARLIGHT_TILE_SIZE, place);
     const bool in_picture = at.x < camera->width && at.y < camera->height;
-    const CameraPath start = start_path(camera, at.x, at.y, params.first_sample + sample,
-                                        params.sequence_length, order.branch_count, params.seed);
+    const CameraPath start = start_path(camera, at.x, at.y, params.first_sample + sample, params.in_middle,
+                                        order.branch_count, params.seed);
     CameraReceiver receiver = absent_receiver();
     SurfaceHit first;
     bool divided = false;

@@ -37,7 +37,7 @@ static inline SurfaceHit first_surface(const SceneView* scene, const global Came
 /// is none. The samples of a pixel count alike, as in the film's layers of surfaces.
 kernel void first_surfaces(SCENE_PARAMETERS, const global Camera* restrict camera, uint first_column,
                            uint first_row, uint width, uint row_count, uint first_sample, uint sample_count,
-                           uint sequence_length, uint seed, global uint* restrict triangles) {
+                           uint in_middle, uint seed, global uint* restrict triangles) {
     const uint index = (uint)get_global_id(0);
     const uint pixel = index / sample_count;
     if (pixel >= width * row_count) {
@@ -45,7 +45,7 @@ kernel void first_surfaces(SCENE_PARAMETERS, const global Camera* restrict camer
     }
     const SceneView scene = SCENE_VIEW;
     const CameraSample start = camera_sample(camera, first_column + pixel % width, first_row + pixel / width,
-                                             first_sample + index % sample_count, sequence_length, seed);
+                                             first_sample + index % sample_count, in_middle, seed);
     const SurfaceHit hit = first_surface(&scene, camera, &start);
     triangles[index] = hit.t >= 0.0f ? hit.triangle : ~0u;
 }

@@ -9,16 +9,17 @@
 namespace nearlight::viewer {
 
 bool is_averaged(std::string_view channel) {
-    static constexpr std::array<std::string_view, 4> kLayers{"beauty", "direct", "indirect", "A"};
+    static constexpr std::array<std::string_view, 5> kLayers{"beauty", "direct", "indirect", "A", "albedo"};
     return std::ranges::find(kLayers, layer_of(channel)) != kLayers.end();
+}
+
+void PassMean::begin(const Image& first) {
+    mean_ = first;
+    passes_ = 0;
 }
 
 void PassMean::add(const Image& pass) {
     ++passes_;
-    if (passes_ == 1) {
-        mean_ = pass;
-        return;
-    }
     const float weight = 1.0f / static_cast<float>(passes_);
     std::vector<std::size_t> averaged;
     for (std::size_t channel = 0; channel < pass.channels.size(); ++channel) {
@@ -30,7 +31,8 @@ void PassMean::add(const Image& pass) {
     for (std::size_t pixel = 0; pixel < pass.values.size(); pixel += stride) {
         for (const std::size_t channel : averaged) {
             float& mean = mean_.values[pixel + channel];
-            mean += weight * (pass.values[pixel + channel] - mean);
+            const float value = pass.values[pixel + channel];
+            mean = passes_ == 1 ? value : mean + weight * (value - mean);
         }
     }
 }

@@ -26,6 +26,7 @@ GatherSettings pass_gather(const RenderSettings& whole, StepKind kind) {
     settings.samples_per_pixel = 1;
     settings.interleave = kInterleave;
     if (kind == StepKind::refining) {
+        settings.spread_single_samples = true;
         settings.strata = std::max(passes, kMinStrata);
         settings.direct_samples_per_pixel =
             share_of(settings.direct_samples_per_pixel.value_or(kDefaultDirectSamples), passes);

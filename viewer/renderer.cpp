@@ -228,14 +228,14 @@ std::optional<Image> Renderer::gather(Session& session, const Job& job, Frame& f
 /// Puts the pass, or the mean with those before, into the frame.
 void Renderer::add_pass(const Job& job, Frame& frame, Image&& pass) {
     if (job.step.kind == StepKind::refining) {
-        if (job.step.pass == 1) {
-            mean_.clear();
-        }
         mean_.add(pass);
         frame.image = mean_.image();
         frame.samples = mean_.passes();
     } else {
         frame.image = std::move(pass);
+        if (job.step.kind == StepKind::full) {
+            mean_.begin(frame.image);
+        }
     }
     if (frame.samples < kUnsmoothedSamples) {
         frame.smoothed = frame.image;

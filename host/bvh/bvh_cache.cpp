@@ -146,10 +146,14 @@ void shrink(const fs::path& folder, std::uintmax_t max_bytes) {
     std::error_code ignored;
     std::vector<File> files;
     std::uintmax_t sum = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        if (entry.path().extension() == kExtension) {
-            files.push_back({entry.path(), entry.last_write_time(ignored), entry.file_size(ignored)});
-            sum += files.back().bytes;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        std::error_code gone;  // another process may have removed the file
+        const std::uintmax_t bytes = entry->file_size(gone);
+        if (!gone && entry->path().extension() == kExtension) {
+            files.push_back({entry->path(), entry->last_write_time(ignored), bytes});
+            sum += bytes;
         }
     }
     std::ranges::sort(files, {}, &File::used);

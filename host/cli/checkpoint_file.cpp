@@ -14,6 +14,7 @@
 #include "host/base/hash.h"
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
+#include "host/stages/receiver_paths.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -148,7 +149,7 @@ Json record_json(const PassRecord& record) {
     if (record.choice) {
         json["choice"] = {record.choice->range, record.choice->ray_budget.clamp_radius,
                           record.choice->ray_budget.direct_samples_per_pixel,
-                          record.choice->ray_budget.shared_limit};
+                          record.choice->ray_budget.shared_limit, record.choice->ray_budget.aimed_rays};
     }
     return json;
 }
@@ -182,7 +183,11 @@ PassRecord record_in(const Json& json) {
         record.choice = {.range = choice.at(0),
                          .ray_budget = {.clamp_radius = choice.at(1),
                                         .direct_samples_per_pixel = whole_in<uint>(choice.at(2)),
-                                        .shared_limit = choice.at(3)}};
+                                        .shared_limit = choice.at(3),
+                                        .aimed_rays = whole_in<uint>(choice.at(4))}};
+        if (record.choice->ray_budget.aimed_rays > kMaxAimedRays) {
+            throw std::length_error("aimed rays");
+        }
     }
     return record;
 }

@@ -17,7 +17,7 @@
 namespace nearlight::core {
 
 /// What a file begins with.
-inline constexpr std::string_view kCheckpointMagic = "NLSUMS02";
+inline constexpr std::string_view kCheckpointMagic = "NLSUMS03";
 
 /// What a checkpoint says about its picture.
 struct CheckpointFacts {

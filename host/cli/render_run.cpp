@@ -90,11 +90,14 @@ std::vector<Device*> plain(const std::vector<std::unique_ptr<Device>>& devices) 
 
 /// The mattes of all passes that the report counts.
 MatteSource mattes_of(Session& session, const RenderRun& run, const RenderReport& report,
-                      const Camera& camera, const std::function<void(double fraction)>& tell_progress) {
+                      const Camera& camera, bool spread_single_samples,
+                      const std::function<void(double fraction)>& tell_progress) {
     std::vector<MattePass> passes;
     for (const uint samples : report.pass_samples) {
         const uint number = run.options.checkpoint.first_pass + static_cast<uint>(passes.size());
-        passes.push_back({.seed = pass_seed(run.settings.seed, number), .samples_per_pixel = samples});
+        passes.push_back({.seed = pass_seed(run.settings.seed, number),
+                          .samples_per_pixel = samples,
+                          .spread_single_samples = spread_single_samples});
     }
     // An interrupted picture gets the mattes of the rows that it has, and a frame all of them.
     return [&session, &run, &camera, passes = std::move(passes), tell_progress,
@@ -144,7 +147,8 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
                      sinks.open(run, so_far.report, so_far.view);
                      so_far.average.send([&](std::span<const float> rows) { sinks.add_rows(rows, total); });
                      sinks.picture.commit(
-                         total, true, mattes_of(session, run, so_far.report, sinks.camera, [](double) {}));
+                         total, true,
+                         mattes_of(session, run, so_far.report, sinks.camera, true, [](double) {}));
                  },
              .warn =
                  [&](const std::string& why) {
@@ -285,15 +289,16 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         bar.update(fraction, seconds_left(run, since_begin));
         return !interrupted();
     };
+    const bool has_passes = averages_passes(run.settings, start.passes);
     RenderReport report = render(session, run.settings, hooks, std::move(start.passes));
     bar.clear();
     // Without any row, files that are there are better than black ones.
     const bool has_rows = sinks.first_rows.seconds > 0.0 || !report.interrupted;
     if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
-        sinks.picture.commit(
-            since_begin, false,
-            mattes_of(session, run, report, sinks.camera, [&](double done) { bar.update(done); }));
+        sinks.picture.commit(since_begin, false,
+                             mattes_of(session, run, report, sinks.camera, has_passes,
+                                       [&](double done) { bar.update(done); }));
         bar.clear();
         report.interrupted = report.interrupted || sinks.picture.lacks_mattes();
     }

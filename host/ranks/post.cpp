@@ -110,6 +110,10 @@ void Post::send(int to, Message message) {
 }
 
 void Post::check_signs_of_life(int number, const std::string& name) {
+    if (has_failed_) {
+        throw Error(ErrorKind::failure,
+                    name + " cannot be heard of any more, because memory for a message is lacking");
+    }
     const double silence = [&] {
         const std::lock_guard lock(mutex_);
         return clock_.seconds() - last_heard_[static_cast<std::size_t>(number)];
@@ -137,7 +141,11 @@ void Post::run(std::promise<Rank>& joined) {
         last_heard_.assign(static_cast<std::size_t>(rank.count), clock_.seconds());
     }
     joined.set_value(rank);
-    work(rank);
+    try {
+        work(rank);
+    } catch (const std::exception&) {
+        has_failed_ = has_lost_ = true;
+    }
     mpi_->finish(!has_lost_);
 }
 

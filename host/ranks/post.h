@@ -55,8 +55,8 @@ class Post {
     void send(int to, Message message);
 
     /// Throws Error(ErrorKind::failure) if a rank has not been heard of for 30 s, or for as many as the
-    /// environment variable NEARLIGHT_RANK_SILENCE says. Each rank says something to the leading one every
-    /// second, and hears from it.
+    /// environment variable NEARLIGHT_RANK_SILENCE says, or if the thread had to end. Each rank says
+    /// something to the leading one every second, and hears from it.
     void check_signs_of_life(int number, const std::string& name);
     /// Whether any rank has been lost.
     [[nodiscard]] bool has_lost() const { return has_lost_; }
@@ -97,6 +97,8 @@ class Post {
     Stopwatch clock_;
     bool leaving_ = false;
     std::atomic<bool> has_lost_{false};
+    std::atomic<bool> has_failed_{
+        false};  ///< the thread has ended, because there was no memory for a message
     double max_silence_;
 
     std::mutex receiver_mutex_;

@@ -48,11 +48,24 @@ void Service::refuse(const Error& failure) {
 void Service::run(const Session& session, const std::string& facts) {
     const std::vector<RemoteDevice> devices = session.own_devices();
     std::vector<std::jthread> threads;
-    for (std::uint32_t device = 0; device < devices.size(); ++device) {
-        threads.emplace_back([this, &session, device] { make_bands(session, device); });
+    try {
+        for (std::uint32_t device = 0; device < devices.size(); ++device) {
+            threads.emplace_back([this, &session, device] { make_bands(session, device); });
+        }
+        say_hello({.host = post_.rank().host, .facts = facts, .devices = devices});
+    } catch (...) {
+        stop();  // so that the threads can be joined
+        throw;
     }
-    say_hello({.host = post_.rank().host, .facts = facts, .devices = devices});
     wait_for_end();
+}
+
+void Service::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        has_ended_ = true;
+    }
+    changed_.notify_all();
 }
 
 void Service::wait_for_end() {

@@ -58,6 +58,7 @@ class Service {
     std::optional<Order> next_order(std::uint32_t device);
     bool is_wanted(PictureNumber picture);
     void wait_for_end();
+    void stop();
 
     Post& post_;
     std::mutex mutex_;

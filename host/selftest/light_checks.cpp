@@ -172,7 +172,7 @@ void check_camera_pass(Device& device, CheckResult& result) {
 void check_first_surfaces(Device& device, CheckResult& result) {
     const Scene scene = make_sphere_room(kLightTriangles);
     const Camera camera = make_camera(scene.camera, 150, 101);
-    const SampleBlock block{.width = camera.width, .row_count = camera.height};
+    const SampleBlock block{.width = camera.width, .row_count = camera.height, .in_middle = true};
     const DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
     Buffer<uint> found(device, block.size());
     FirstSurfaces(device).run(on_device, Buffer<Camera>(device, std::span(&camera, 1)), block, 1, found);

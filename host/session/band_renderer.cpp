@@ -37,8 +37,10 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const PictureTask& 
             .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};
 }
 
-/// A batch of the plan, which knows only places on the film, with what it takes to add up light.
+/// A batch of the plan, which knows only how samples are divided, with how they lie and what it takes to add
+/// up light.
 CameraBatch with_light(CameraBatch batch, const PictureTask& picture, const ReceiverPathSettings& paths) {
+    batch.spread_single_samples = picture.settings.spread_single_samples;
     batch.max_depth = picture.max_depth;
     batch.min_weight = min_receiver_weight(picture.settings);
     batch.light_samples = per_sample(picture.budget.direct_samples_per_pixel, picture.settings);

@@ -183,8 +183,13 @@ void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& 
 class Crew {
   public:
     Crew(Board& board, std::span<const BandWorker> workers, std::vector<BandShare>& shares) : board_(board) {
-        for (std::size_t i = 0; i < workers.size(); ++i) {
-            threads_.emplace_back([&, i, worker = &workers[i]] { work(board, i, *worker, shares[i]); });
+        try {
+            for (std::size_t i = 0; i < workers.size(); ++i) {
+                threads_.emplace_back([&, i, worker = &workers[i]] { work(board, i, *worker, shares[i]); });
+            }
+        } catch (...) {
+            board.stop();  // The threads that did start are joined, and would wait for the others for ever.
+            throw;
         }
     }
     ~Crew() { board_.stop(); }

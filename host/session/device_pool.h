@@ -45,7 +45,8 @@ class DevicePool {
     /// Uploads the scene to every device. The trees must have the shapes of tree_shapes().
     void upload(const Scene& scene, const ShapedBvh& tree);
 
-    /// Calls work(leader), and again with the next leader if it throws an Error.
+    /// Calls work(leader), and again with the next leader if it throws an Error. One of the kind
+    /// ErrorKind::invalid_argument is passed on, because no device is to blame for it.
     template <typename Work>
     std::invoke_result_t<Work, PoolDevice&> on_leader(const Work& work) {
         for (;;) {
@@ -53,13 +54,17 @@ class DevicePool {
                 appoint_leader();
                 return work(leader());
             } catch (const Error& error) {
+                if (error.kind() == ErrorKind::invalid_argument) {
+                    throw;
+                }
                 lose(0, error);
             }
         }
     }
 
-    /// Drops the devices whose share says that they failed, but not the last device: if there is more to do,
-    /// its error says why not. `shares` are in the order of devices().
+    /// Drops the devices whose share says that they failed, but keeps the last one, so that the pool is never
+    /// empty. If there is more to do, that device's own error ends it. `shares` are in the order of
+    /// devices().
     void drop_failed(std::span<const BandShare> shares);
 
     /// The sum of the devices' peak allocations, in bytes.

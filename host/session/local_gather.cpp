@@ -17,6 +17,13 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
     std::uint64_t pairs_before = 0;
     const std::uint64_t receiver_count = packet_count * NEARLIGHT_PACKET_SIZE;
     for (const LocalVpls::Group& group : vpls_.groups) {
+        // The gatherer counts the pairs of a stratum, and all strata together are the whole.
+        const auto of_group = [&](std::uint64_t done, std::uint64_t total) {
+            const double part_done = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+            const auto pairs = static_cast<double>(group.count * receiver_count);
+            return !progress || progress(pairs_before + static_cast<std::uint64_t>(part_done * pairs),
+                                         vpls_.count * receiver_count);
+        };
         const bool finished = gatherer.gather({.tree = scene.tree,
                                                .vpls = group.vpls,
                                                .vpl_count = group.count,
@@ -25,10 +32,7 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
                                                .clamp_radius = group.radius,
                                                .strata = &strata,
                                                .curves = scene.curves_in_use()},
-                                              part, [&](std::uint64_t done, std::uint64_t) {
-                                                  return !progress || progress(pairs_before + done,
-                                                                               vpls_.count * receiver_count);
-                                              });
+                                              part, of_group);
         if (!finished) {
             return false;
         }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "host/base/cryptomatte_id.h"
+#include "host/stages/camera_pass.h"
 
 namespace nearlight::core {
 namespace {
@@ -40,7 +41,7 @@ std::vector<SampleBlock> sample_blocks(const PixelWindow& band, const MattePass&
                           .row_count = band.height,
                           .first_sample = first,
                           .sample_count = std::min(together, pass.samples_per_pixel - first),
-                          .samples_per_pixel = pass.samples_per_pixel});
+                          .in_middle = are_in_middle(pass.samples_per_pixel, pass.spread_single_samples)});
     }
     return blocks;
 }

@@ -22,6 +22,7 @@ inline constexpr std::size_t kMatteChannels = 2 * kMatteRanks;
 struct MattePass {
     uint seed = 0;
     uint samples_per_pixel = 1;
+    bool spread_single_samples = false;  ///< as in the pass's GatherSettings
 };
 
 /// Takes finished rows, from top to bottom: a multiple of width · kinds · kMatteChannels floats. Returns

@@ -14,8 +14,8 @@ bool may_have_passes(const RenderSettings& settings);
 /// `pass`, so that pictures of neighbouring seeds share no pass.
 uint pass_seed(uint seed, uint pass);
 
-/// The fewest samples per pixel that a pass may have: 2, because a single sample lies in the middle of its
-/// pixel, or 1 if all passes of the picture are such.
+/// The fewest samples per pixel that a pass may have: 2, because a single sample says nothing about its
+/// error, or 1 if all passes of the picture are such.
 uint min_pass_samples(const GatherSettings& settings);
 
 /// The settings of a pass of `samples` per pixel, which may be more or fewer than the settings say. All that

@@ -61,9 +61,10 @@ struct PictureSize {
 /// The number of receivers in a batch that keep a device busy and fit its memory.
 std::size_t receivers_per_batch(const Device& device);
 
-/// Makes one plan for all devices, whose receivers_per_batch() are given. Its batches fit each device, and
-/// there are enough bands for faster devices to take more. Bands and batches are cut so that all bundles are
-/// whole and the same for every plan.
+/// Makes one plan for all devices, whose receivers_per_batch() are given. Its batches fit each device, unless
+/// a single row of bundles is more already, because a batch has at least one. There are enough bands for
+/// faster devices to take more. Bands and batches are cut so that all bundles are whole and the same for
+/// every plan.
 RenderPlan make_plan(std::span<const std::size_t> batch_receivers, const PictureSize& picture);
 
 }  // namespace nearlight::core

@@ -21,8 +21,8 @@ RenderReport begin_report(Session& session) {
 }
 
 /// The mean of passes with the same VPLs would converge to a picture with their noise.
-void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
-    if (!settings.sampling.file.empty() && keeps_sums) {
+void refuse_passes_of_a_file(const RenderSettings& settings, bool has_passes) {
+    if (!settings.sampling.file.empty() && has_passes) {
         throw Error(ErrorKind::invalid_argument,
                     "VPLs from a file would be the same in every pass: a picture of them has one pass, with "
                     "no limit of time or error and no checkpoint",
@@ -30,14 +30,23 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool keeps_sums) {
     }
 }
 
-void render_once(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
+/// Makes a picture of `samples` per pixel, which may be more or fewer than the settings say.
+void render_once(Session& session, const RenderSettings& settings, uint samples, const RenderHooks& hooks,
                  RenderReport& report) {
-    const Prepared pass = prepare(session, settings, hooks.vpls, report);
+    Prepared pass = prepare(session, with_samples(settings, samples), hooks.vpls, report);
+    RenderSettings decided = settings;
+    decided.gather.direct_samples_per_pixel =
+        budget_of(pass.view, pass.vpls, settings.gather).direct_samples_per_pixel;
+    pass.settings = with_samples(std::move(decided), samples);
     hooks.start(report, pass.view, pass.vpls);
     gather(session, pass, hooks.rows, hooks.progress, report);
 }
 
 }  // namespace
+
+bool averages_passes(const RenderSettings& settings, const PassStart& pass_start) {
+    return may_have_passes(settings) || !pass_start.is_plain();
+}
 
 void add_beauty(std::span<const float> rows, Hasher& hasher) {
     for (std::size_t i = 0; i < rows.size(); i += NEARLIGHT_LAYER_CHANNELS) {
@@ -47,8 +56,8 @@ void add_beauty(std::span<const float> rows, Hasher& hasher) {
 
 RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
                     PassStart pass_start) {
-    const bool keeps_sums = may_have_passes(settings) || !pass_start.is_plain();
-    refuse_passes_of_a_file(settings, keeps_sums);
+    const bool has_passes = averages_passes(settings, pass_start);
+    refuse_passes_of_a_file(settings, has_passes);
     RenderReport report = begin_report(session);
     const Stopwatch total;
     Hasher hasher;
@@ -57,12 +66,12 @@ RenderReport render(Session& session, const RenderSettings& settings, const Rend
         add_beauty(rows, hasher);
         hooks.rows(rows);
     };
-    if (keeps_sums) {
+    if (has_passes) {
         render_passes(session, settings, hashing, std::move(pass_start), report);
     } else {
         const uint samples =
             settings.pass_samples.empty() ? settings.gather.samples_per_pixel : settings.pass_samples.front();
-        render_once(session, with_samples(settings, samples), hashing, report);
+        render_once(session, settings, samples, hashing, report);
     }
     report.image_hash = hasher.hash64();
     report.seconds.compile = session.new_compile_seconds();

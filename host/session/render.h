@@ -90,6 +90,10 @@ struct RenderHooks {
     VplMaker vpls{};  ///< empty: Session::sample() makes them
 };
 
+/// Whether a picture is made in the way of several passes, which spreads single samples
+/// (GatherSettings::spread_single_samples).
+bool averages_passes(const RenderSettings& settings, const PassStart& pass_start);
+
 /// Adds finished rows to RenderReport::image_hash.
 void add_beauty(std::span<const float> rows, Hasher& hasher);
 

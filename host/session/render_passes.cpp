@@ -48,6 +48,7 @@ RenderSettings pass_settings(const RenderSettings& settings, uint number, uint s
                              const std::optional<PassChoice>& choice) {
     RenderSettings result = choice ? with_choice(settings, *choice) : settings;
     result.seed = pass_seed(settings.seed, number);
+    result.gather.spread_single_samples = true;
     return with_samples(std::move(result), samples);
 }
 
@@ -143,6 +144,16 @@ void end_pass(const RenderSettings& settings, const Prepared& pass, Passes& pass
     }
 }
 
+/// Prepares a pass. It has the budget that pass 0 chose, if there is a choice.
+Prepared prepare_pass(Session& session, const RenderSettings& settings,
+                      const std::optional<PassChoice>& choice, const VplMaker& vpls) {
+    Prepared pass = prepare(session, settings, vpls);
+    if (choice) {
+        pass.vpls.ray_budget = choice->ray_budget;
+    }
+    return pass;
+}
+
 /// What prepares and plans the pass after the present one while that is gathered; null if there is nobody who
 /// could begin with it, or if it is not certain yet.
 std::function<std::shared_ptr<PlannedPicture>()> preparation(Session& session, const RenderSettings& settings,
@@ -153,21 +164,26 @@ std::function<std::shared_ptr<PlannedPicture>()> preparation(Session& session, c
         return {};
     }
     const PassChoice choice = passes.choice ? *passes.choice : choice_of(present, settings);
-    return [&session, &vpls, &passes, wanted = pass_settings(settings, number + 1, samples, choice)] {
-        passes.next = prepare(session, wanted, vpls);
+    return [&session, &vpls, &passes, choice, wanted = pass_settings(settings, number + 1, samples, choice)] {
+        passes.next = prepare_pass(session, wanted, choice, vpls);
         passes.next->planned = session.plan(passes.next->view, passes.next->vpls, wanted.gather, wanted.seed);
         return passes.next->planned;
     };
 }
 
-/// Prepares the present pass, unless that was done already.
-Prepared begin_pass(Session& session, const RenderSettings& settings, const VplMaker& vpls, Passes& passes,
-                    RenderReport& report) {
-    if (std::optional<Prepared> ready = std::exchange(passes.next, std::nullopt)) {
-        note_pass(*ready, report);
-        return std::move(*ready);
+/// Prepares a pass of `samples` per pixel, unless that was done already.
+Prepared begin_pass(Session& session, const RenderSettings& settings, uint number, uint samples,
+                    const VplMaker& vpls, Passes& passes, RenderReport& report) {
+    std::optional<Prepared> ready = std::exchange(passes.next, std::nullopt);
+    Prepared pass = ready ? std::move(*ready)
+                          : prepare_pass(session, pass_settings(settings, number, samples, passes.choice),
+                                         passes.choice, vpls);
+    note_pass(pass, report);
+    if (!passes.choice) {
+        // What the pilot chose is for a pass of all samples; one of fewer gets less in proportion.
+        pass.settings = pass_settings(settings, number, samples, choice_of(pass, settings));
     }
-    return prepare(session, settings, vpls, report);
+    return pass;
 }
 
 /// Makes a pass of `samples` per pixel. If it is the first and given up, nothing is left of it but its time.
@@ -175,8 +191,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
     const uint number = passes.first + report.passes;
-    Prepared pass = begin_pass(session, pass_settings(settings, number, samples, passes.choice), hooks.vpls,
-                               passes, report);
+    Prepared pass = begin_pass(session, settings, number, samples, hooks.vpls, passes, report);
     passes.schedule.note_vpls(pass.vpls.seconds_unless_kept);
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
     if (passes.begun_rows > 0) {

@@ -16,8 +16,7 @@ void note_view(const View& view, RenderReport& report) {
     report.filter = view.scene_camera.filter.kind;
 }
 
-/// The settings of the view, without a pilot that has nothing to decide: all passes but the first have the
-/// budget of the first one.
+/// The settings of the view, without a pilot that has nothing to decide, as in all passes but the first.
 ViewSettings view_settings(const RenderSettings& settings) {
     ViewSettings view = settings.view;
     const GatherSettings& gather = settings.gather;

@@ -189,6 +189,9 @@ std::vector<Vec3> Session::irradiance(std::span<const Vec3> points, std::span<co
                                                      " points needs as many normals as points, not " +
                                                      std::to_string(normals.size()));
     }
+    if (view.max_depth < 2) {
+        return std::vector<Vec3>(points.size());  // Light on a surface is seen over two edges at least.
+    }
     return pool_.on_leader([&](PoolDevice& leader) {
         Device& device = leader.device();
         const std::vector<ReceiverPacket> packets =

@@ -38,7 +38,7 @@ void CameraPass::run(const CameraPassInput& input, const CameraPassOutput& outpu
         .first_tile_row = batch.first_tile_row,
         .tile_row_count = round_up_to_multiple(batch.tile_row_count, batch.bundle_rows * batch.interleave),
         .first_sample = batch.first_sample,
-        .sequence_length = batch.samples_per_pixel,
+        .in_middle = are_in_middle(batch.samples_per_pixel, batch.spread_single_samples) ? 1u : 0u,
         .seed = input.seed,
         .limits = {.max_edges = batch.max_depth,
                    .light_samples = batch.light_samples,

@@ -18,7 +18,7 @@ struct CameraBatch {
     uint tile_row_count = 0;     ///< the last row may reach below the picture
     uint first_sample = 0;
     uint sample_count = 1;
-    uint samples_per_pixel = 1;  ///< over all batches; if it is 1, the sample goes through the pixel's centre
+    uint samples_per_pixel = 1;  ///< over all batches
     uint branch_count = 1;       ///< 2 if camera paths may divide, else 1
     uint bundle_columns = 1;     ///< tiles that stand together in the order of packets, side by side
     uint bundle_rows = 1;        ///< and one below the other
@@ -36,7 +36,16 @@ struct CameraBatch {
     uint sky_rays = 0;
     /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
     float min_weight = 0.0f;
+    /// Whether a pixel's only sample lies anywhere in the reach of its filter (GatherSettings), and not in the
+    /// middle.
+    bool spread_single_samples = false;
 };
+
+/// Whether the samples of a picture, or of one of its passes, go through the middles of their pixels. Only a
+/// pixel's single sample does, unless it is to be spread.
+constexpr bool are_in_middle(uint samples_per_pixel, bool spread_single_samples) {
+    return samples_per_pixel == 1 && !spread_single_samples;
+}
 
 /// The order of the receiver packets of a batch of so many pixels' width.
 PacketOrder packet_order(const CameraBatch& batch, uint width);

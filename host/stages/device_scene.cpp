@@ -7,6 +7,7 @@
 #include "host/scene/emitters.h"
 #include "host/scene/environment_table.h"
 #include "host/scene/reflectance.h"
+#include "host/stages/runs.h"
 
 namespace nearlight::core {
 namespace {
@@ -24,6 +25,7 @@ TexturePool pool_textures(const Scene& scene) {
         first_words.push_back(static_cast<uint>(pool.words.size()));
         pool.words.insert(pool.words.end(), image.words.begin(), image.words.end());
     }
+    to_kernel_count(pool.words.size(), "words of textures");
     for (const SceneTexture& texture : scene.textures) {
         Texture pooled = texture.parameters;
         if (pooled.kind == NEARLIGHT_TEXTURE_BITMAP) {

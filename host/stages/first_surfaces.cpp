@@ -10,7 +10,7 @@ void FirstSurfaces::run(const DeviceScene& scene, const Buffer<Camera>& camera, 
                         uint seed, Buffer<uint>& triangles) {
     first_surfaces_.launch_items(block.size(), scene, camera, block.first_column, block.first_row,
                                  block.width, block.row_count, block.first_sample, block.sample_count,
-                                 block.samples_per_pixel, seed, triangles);
+                                 block.in_middle ? 1u : 0u, seed, triangles);
 }
 
 }  // namespace nearlight::core

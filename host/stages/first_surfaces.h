@@ -15,8 +15,7 @@ struct SampleBlock {
     uint row_count = 0;
     uint first_sample = 0;
     uint sample_count = 1;
-    /// Over all launches; if it is 1, the sample goes through the pixel's centre.
-    uint samples_per_pixel = 1;
+    bool in_middle = false;  ///< samples go through the middles of their pixels
 
     [[nodiscard]] std::size_t size() const { return std::size_t{width} * row_count * sample_count; }
 };

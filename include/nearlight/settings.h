@@ -160,6 +160,10 @@ struct GatherSettings {
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
     /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
     float roulette = 0.0f;
+    /// A pixel's only sample goes through its middle, unless this is set: then it lies anywhere in the reach
+    /// of the reconstruction filter, so that the mean of many such pictures has smooth edges. The passes of a
+    /// picture set it.
+    bool spread_single_samples = false;
 
     [[nodiscard]] std::uint32_t strata_or_auto() const {
         return strata.value_or(samples_per_pixel * interleave * interleave);

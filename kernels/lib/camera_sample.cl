@@ -16,17 +16,17 @@ typedef struct CameraSample {
     uint pixel_key;  // of the sequences that all samples of the pixel share
 } CameraSample;
 
-/// Sample number `sample` of pixel (x, y), of the `sequence_length` samples that have the seed.
+/// Sample number `sample` of pixel (x, y). If `in_middle` is 1, it goes through the middle of the pixel.
 static inline CameraSample camera_sample(const global Camera* camera, uint x, uint y, uint sample,
-                                         uint sequence_length, uint seed) {
+                                         uint in_middle, uint seed) {
     const uint pixel = y * camera->width + x;
     CameraSample start;
     start.number = sample;
     start.key = random_uint4((uint4)(pixel, sample, seed, 0xca3e7au)).x;
     start.pixel_key = random_uint4((uint4)(pixel, seed, 0xf117u, 0x37u)).x;
-    // A single sample goes through the centre of its pixel, but through any part of the lens.
-    start.film = sequence_length > 1 ? sample_film(camera, x, y, sample_2d(sample, 0, start.pixel_key))
-                                     : middle_of_pixel(x, y);
+    // A sample in the middle of its pixel goes through any part of the lens all the same.
+    start.film =
+        in_middle ? middle_of_pixel(x, y) : sample_film(camera, x, y, sample_2d(sample, 0, start.pixel_key));
     start.ray = camera_ray(camera, start.film.position, sample_2d(sample, 1, start.pixel_key));
     return start;
 }

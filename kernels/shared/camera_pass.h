@@ -31,9 +31,9 @@ typedef struct PixelList {
 typedef struct CameraPassParams {
     PacketOrder order;  // of the receivers
     uint first_tile_column, first_tile_row;
-    uint tile_row_count;   // of whole bundles
-    uint first_sample;     // of each pixel
-    uint sequence_length;  // samples of a pixel over all launches
+    uint tile_row_count;  // of whole bundles
+    uint first_sample;    // of each pixel
+    uint in_middle;       // 1: samples go through the middle of their pixel
     uint seed;
     CameraLimits limits;
     PixelList list;

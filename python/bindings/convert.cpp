@@ -13,6 +13,10 @@ bool is_text(py::handle value) {
     return PyUnicode_Check(value.ptr()) != 0 || PyBytes_Check(value.ptr()) != 0;
 }
 
+bool is_name_or_number(py::handle value) {
+    return !is_boolean(value) && (py::isinstance<py::str>(value) || PyIndex_Check(value.ptr()) != 0);
+}
+
 }  // namespace
 
 std::string shown(py::handle object) {
@@ -94,6 +98,13 @@ std::filesystem::path to_path(py::handle value) {
     return {py::reinterpret_steal<py::bytes>(bytes).cast<std::string>()};
 }
 
+std::string to_name(const char* name, py::handle value) {
+    if (!is_name_or_number(value)) {
+        fail_type(name, "a name or a number", value);
+    }
+    return encoded(py::str(value));
+}
+
 py::object enumeration(const char* type) {
     return py::module_::import("nearlight._core").attr(type);
 }
@@ -131,7 +142,7 @@ std::vector<std::string> Convert<std::vector<std::string>>::from(const char* nam
     }
     std::vector<std::string> texts;
     for (const py::handle item : value) {
-        if (is_boolean(item) || (!py::isinstance<py::str>(item) && PyIndex_Check(item.ptr()) == 0)) {
+        if (!is_name_or_number(item)) {
             fail_type(name, "a sequence of names or numbers", value);
         }
         texts.push_back(encoded(py::str(item)));

@@ -39,6 +39,8 @@ double to_double(const char* name, py::handle value);
 Vec3 to_vector(const char* name, py::handle value);
 /// Takes str, bytes or os.PathLike, as Python's own functions do.
 std::filesystem::path to_path(py::handle value);
+/// Takes a name, or a whole number that stands for one.
+std::string to_name(const char* name, py::handle value);
 /// Takes a member of the module's enumeration `type` or the name of one; returns its place.
 std::size_t to_member(const char* name, const char* type, py::handle value);
 

@@ -64,7 +64,7 @@ std::string init_doc() {
 template <typename Class, typename Settings, typename Value>
 void add_property(Class& cls, const Field<Settings, Value>& field) {
     const auto set = [field](Settings& settings, py::handle value) {
-        settings.*field.member = Convert<Value>::from(field.name, value);
+        settings.*field.member = value_of(field, value);
     };
     if constexpr (HasFields<Value>) {
         cls.def_property(

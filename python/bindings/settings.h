@@ -28,6 +28,17 @@ concept HasFields = requires {
 template <typename Owner, typename T>
 inline constexpr bool kIsFlat = std::same_as<Owner, RenderSettings>&& HasFields<T>;
 
+/// What a field becomes that is set to `value`.
+template <typename Settings, typename Value>
+Value value_of(const Field<Settings, Value>& field, py::handle value) {
+    if constexpr (std::same_as<Value, std::string>) {
+        if (field.takes_numbers) {
+            return to_name(field.name, value);
+        }
+    }
+    return Convert<Value>::from(field.name, value);
+}
+
 template <HasFields Settings>
 void add_names(py::list& names) {
     for_each_field<Settings>([&](const auto& field) {
@@ -46,7 +57,7 @@ bool assign(Settings& settings, const std::string& name, py::handle value) {
     for_each_field<Settings>([&](const auto& field) {
         using Value = std::remove_cvref_t<decltype(settings.*field.member)>;
         if (name == field.name) {
-            settings.*field.member = Convert<Value>::from(field.name, value);
+            settings.*field.member = value_of(field, value);
             found = true;
         } else if constexpr (kIsFlat<Settings, Value>) {
             found = found || assign(settings.*field.member, name, value);

@@ -14,10 +14,13 @@ template <typename Settings, typename Value>
 struct Field {
     const char* name;
     Value Settings::*member;
-    const char* text;  ///< what the field means, in one line
+    const char* text;            ///< what the field means, in one line
+    bool takes_numbers = false;  ///< whether whole numbers may stand for names; for std::string
 };
 template <typename Settings, typename Value>
 Field(const char*, Value Settings::*, const char*) -> Field<Settings, Value>;
+template <typename Settings, typename Value>
+Field(const char*, Value Settings::*, const char*, bool) -> Field<Settings, Value>;
 
 /// What the tables say about a struct: FieldsOf<Settings>::name, ::text and ::fields.
 template <typename Settings>
@@ -110,7 +113,10 @@ struct FieldsOf<GatherSettings> {
         Field{"shared_limit", &GatherSettings::shared_limit,
               "radiance of lamps met by chance that bundles share at most; None: a pilot chooses"},
         Field{"roulette", &GatherSettings::roulette,
-              "threshold of Russian roulette, in means of what VPLs could bring; 0 asks them all"}};
+              "threshold of Russian roulette, in means of what VPLs could bring; 0 asks them all"},
+        Field{"spread_single_samples", &GatherSettings::spread_single_samples,
+              "whether a pixel's only sample lies anywhere in its filter's reach and not in its middle, so "
+              "that the mean of many such pictures has smooth edges"}};
 };
 
 template <>
@@ -170,7 +176,8 @@ struct FieldsOf<LoadOptions> {
         Field{"definitions", &LoadOptions::definitions, "values of $NAME in a Mitsuba scene, by name"},
         Field{"strict", &LoadOptions::strict, "whether an approximation is an error"},
         Field{"clear_glass", &LoadOptions::clear_glass, "whether light passes glass bodies straight"},
-        Field{"camera", &LoadOptions::camera, "a camera's name, or its number from 1; '': the first one"},
+        Field{"camera", &LoadOptions::camera, "a camera's name, or its number from 1; '': the first one",
+              true},
         Field{"origin", &LoadOptions::origin, "where the camera stands, m; None: as the file says"},
         Field{"target", &LoadOptions::target, "what the camera looks at, m"},
         Field{"up", &LoadOptions::up, "what points upwards in the picture"},

@@ -111,6 +111,7 @@ class _GatherSettings(TypedDict, total=False):
     indirect_only: bool
     shared_limit: float | None
     roulette: float
+    spread_single_samples: bool
 
 class GatherSettings:
     def __init__(self, **fields: Unpack[_GatherSettings]) -> None: ...
@@ -126,6 +127,7 @@ class GatherSettings:
     indirect_only: bool
     shared_limit: float | None
     roulette: float
+    spread_single_samples: bool
 
 class _RenderSettings(_ViewSettings, _SamplingSettings, _GatherSettings, total=False):
     view: ViewSettings
@@ -185,7 +187,7 @@ class _LoadOptions(TypedDict, total=False):
     definitions: Mapping[str, str | float]
     strict: bool
     clear_glass: bool
-    camera: str
+    camera: str | int
     origin: _Vector | None
     target: _Vector | None
     up: _Vector | None
@@ -201,7 +203,7 @@ class LoadOptions:
     definitions: Mapping[str, str | float]
     strict: bool
     clear_glass: bool
-    camera: str
+    camera: str | int
     origin: _Vector | None
     target: _Vector | None
     up: _Vector | None

@@ -68,12 +68,18 @@ def test_images_of_one_channel():
         (np.zeros((2, 2, 2, 2)), None),
         (np.zeros((2, 2, 5)), None),
         (np.zeros((2, 2, 3)), ["R", "G"]),
-        (np.zeros((0, 2, 3)), None),
     ],
 )
 def test_images_of_wrong_shape_are_refused(values, channels):
     with pytest.raises(nearlight.InvalidArgument):
         nearlight.Image(values, channels)
+
+
+@pytest.mark.parametrize("shape", [(0, 5, 3), (5, 0), (2, 2, 0)])
+def test_images_without_pixels_are_refused(shape):
+    with pytest.raises(nearlight.InvalidArgument, match="an image needs at least one pixel") as error:
+        nearlight.Image(np.zeros(shape))
+    assert str(shape) in str(error.value)
 
 
 @pytest.mark.parametrize("values", ["text", [["a"]], np.zeros((2, 2, 3), complex), [[None]], [[1], [1, 2]]])

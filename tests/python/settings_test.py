@@ -144,6 +144,21 @@ def test_definitions_are_names_with_texts_or_numbers():
             nearlight.LoadOptions(definitions=definitions)
 
 
+def test_cameras_are_names_or_numbers(corner):
+    for camera in (2, "2", np.int32(2)):
+        assert nearlight.LoadOptions(camera=camera).camera == "2"
+    options = nearlight.LoadOptions()
+    options.camera = 1
+    assert nearlight.load(corner, options).camera == nearlight.load(corner, camera=1).camera
+    with pytest.raises(nearlight.InvalidArgument, match="2"):
+        nearlight.load(corner, camera=2)
+    for camera in (True, None, 1.0, b"eye"):
+        with pytest.raises(TypeError, match="camera must be a name or a number"):
+            nearlight.LoadOptions(camera=camera)
+    with pytest.raises(TypeError, match="environment must be a str"):
+        nearlight.LoadOptions(environment=2)
+
+
 def test_settings_are_changed_by_keywords_of_a_call(session):
     settings = nearlight.ViewSettings(width=32, height=16)
     view = session.look(settings, height=8)

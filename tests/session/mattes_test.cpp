@@ -106,7 +106,7 @@ TEST(MatteBands, HoldEachSampleOnce) {
                 uint next_sample = 0;
                 for (const SampleBlock& block : sample_blocks(band, pass)) {
                     EXPECT_EQ(block.first_sample, next_sample);
-                    EXPECT_EQ(block.samples_per_pixel, pass.samples_per_pixel);
+                    EXPECT_EQ(block.in_middle, pass.samples_per_pixel == 1);
                     EXPECT_LE(block.size(), std::size_t{1} << 19);
                     next_sample += block.sample_count;
                 }

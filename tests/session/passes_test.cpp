@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "host/reference/test_rooms.h"
 #include "tests/session/rendering.h"
 #include "tests/session/yard_scene.h"
 #include "tests/support/device_fixture.h"
@@ -81,46 +82,114 @@ TEST_F(Passes, OneIsThePictureBitForBit) {
     });
 }
 
+/// Expects the picture of three passes to be the mean of three pictures, of which the later ones have what
+/// the pilot of the first chose. Returns that choice.
+RayBudget expect_mean_of_passes(Session& session, RenderSettings settings) {
+    constexpr uint kPasses = 3;
+    const test::Rendering averaged = test::render_image(session, with_passes(settings, kPasses));
+    const RayBudget budget = averaged.report.ray_budget;
+    RenderHooks later;
+    later.vpls = [&](const ViewSettings& view, const SamplingSettings& sampling, uint seed) {
+        VplSet set = session.sample(session.look(view, seed), sampling, seed);
+        set.ray_budget = budget;
+        return set;
+    };
+    Image expected;
+    std::size_t vpls = 0;
+    for (uint pass = 0; pass < kPasses; ++pass) {
+        settings.seed = pass_seed(5, pass);
+        if (pass > 0) {
+            settings.view.range = averaged.report.range;
+            settings.view.clamp_radius = budget.clamp_radius;
+            settings.gather.direct_samples_per_pixel = budget.direct_samples_per_pixel;
+            settings.gather.shared_limit = budget.shared_limit;
+        }
+        const test::Rendering single =
+            test::render_image(session, settings, pass > 0 ? later : RenderHooks());
+        vpls += single.report.totals.close_vpls + single.report.totals.distant_vpls;
+        if (pass == 0) {
+            expected = single.image;
+            EXPECT_GT(largest_differences(expected, averaged.image).light, 1e-3);
+            continue;
+        }
+        for (std::size_t i = 0; i < expected.values.size(); ++i) {
+            expected.values[i] += is_averaged(i) ? single.image.values[i] : 0.0f;
+        }
+    }
+    for (std::size_t i = 0; i < expected.values.size(); ++i) {
+        expected.values[i] /= is_averaged(i) ? kPasses : 1.0f;
+    }
+    const Differences differences = largest_differences(expected, averaged.image);
+    EXPECT_LT(differences.light, 1e-5) << to_string(settings.sampling.sampler);
+    EXPECT_EQ(differences.geometry, 0.0) << to_string(settings.sampling.sampler);
+    EXPECT_EQ(averaged.report.passes, kPasses);
+    EXPECT_EQ(averaged.report.totals.close_vpls + averaged.report.totals.distant_vpls, vpls);
+    EXPECT_FALSE(averaged.report.interrupted);
+    return budget;
+}
+
 TEST_F(Passes, AreTheMeanOfPicturesWithTheirSeeds) {
     on_each_device([](Device& device) {
         const Scene scene = yard();
         Session session(device, scene);
         for (const SamplerKind sampler : {SamplerKind::close_range, SamplerKind::local}) {
-            constexpr uint kPasses = 3;
-            RenderSettings settings = test::few_vpls(sampler);
-            const test::Rendering averaged = test::render_image(session, with_passes(settings, kPasses));
-            Image expected;
-            std::size_t vpls = 0;
-            for (uint pass = 0; pass < kPasses; ++pass) {
-                settings.seed = pass_seed(5, pass);
-                if (pass > 0) {
-                    settings.view.range = averaged.report.range;
-                    const RayBudget& budget = averaged.report.ray_budget;
-                    settings.view.clamp_radius = budget.clamp_radius;
-                    settings.gather.direct_samples_per_pixel = budget.direct_samples_per_pixel;
-                    settings.gather.shared_limit = budget.shared_limit;
-                }
-                const test::Rendering single = test::render_image(session, settings);
-                vpls += single.report.totals.close_vpls + single.report.totals.distant_vpls;
-                if (pass == 0) {
-                    expected = single.image;
-                    EXPECT_GT(largest_differences(expected, averaged.image).light, 1e-3);
-                    continue;
-                }
-                for (std::size_t i = 0; i < expected.values.size(); ++i) {
-                    expected.values[i] += is_averaged(i) ? single.image.values[i] : 0.0f;
-                }
-            }
-            for (std::size_t i = 0; i < expected.values.size(); ++i) {
-                expected.values[i] /= is_averaged(i) ? kPasses : 1.0f;
-            }
-            const Differences differences = largest_differences(expected, averaged.image);
-            EXPECT_LT(differences.light, 1e-5) << to_string(sampler);
-            EXPECT_EQ(differences.geometry, 0.0) << to_string(sampler);
-            EXPECT_EQ(averaged.report.passes, kPasses);
-            EXPECT_EQ(averaged.report.totals.close_vpls + averaged.report.totals.distant_vpls, vpls);
-            EXPECT_FALSE(averaged.report.interrupted);
+            expect_mean_of_passes(session, test::few_vpls(sampler));
         }
+    });
+}
+
+/// The pilot works in the first pass alone, but what it chose counts in all, also that receivers aim at
+/// mirrors.
+TEST_F(Passes, AllAimAtMirrorsIfTheFirstDoes) {
+    on_each_device([](Device& device) {
+        Scene scene = make_mirror_corner().scene;
+        set_camera(scene, {-1.5, 1, 0}, {0, 0, 0}, 60);
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.view = {.range = 2.0f, .max_depth = 5};
+        EXPECT_GT(expect_mean_of_passes(session, settings).aimed_rays, 0u);
+    });
+}
+
+/// The pilot's light samples are for a pass of all samples.
+TEST_F(Passes, AShortFirstPassHasFewerLightSamples) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.gather = {.samples_per_pixel = 8};
+        settings.pass_samples = {2};
+        const test::Rendering part = test::render_image(session, settings);
+        RenderSettings decided = settings;
+        decided.pass_samples.clear();
+        decided.gather.direct_samples_per_pixel = part.report.ray_budget.direct_samples_per_pixel;
+        const test::Rendering plain = test::render_image(session, with_samples(decided, 2));
+        EXPECT_EQ(part.report.image_hash, plain.report.image_hash);
+        settings.seconds = 1000;
+        const test::Rendering by_time = test::render_image(session, settings);
+        EXPECT_EQ(part.report.image_hash, by_time.report.image_hash);
+    });
+}
+
+/// How many pixels surfaces cover in part.
+std::size_t count_partly_covered(const Image& image) {
+    const auto coverage = static_cast<std::size_t>(image.find_channel("A"));
+    std::size_t count = 0;
+    for (std::size_t i = coverage; i < image.values.size(); i += image.channels.size()) {
+        count += image.values[i] > 0.0f && image.values[i] < 1.0f ? 1 : 0;
+    }
+    return count;
+}
+
+TEST_F(Passes, OfOneSampleSmoothEdges) {
+    on_each_device([](Device& device) {
+        const Scene scene = yard();
+        Session session(device, scene);
+        RenderSettings settings = test::few_vpls();
+        settings.gather.samples_per_pixel = 1;
+        EXPECT_EQ(count_partly_covered(test::render_image(session, settings).image), 0u);
+        settings.passes = 16;
+        EXPECT_GT(count_partly_covered(test::render_image(session, settings).image), 10u);
     });
 }
 

@@ -41,7 +41,7 @@ std::vector<uint> see(Device& device, const Scene& scene, const SampleBlock& blo
 }
 
 SampleBlock whole_picture(uint samples) {
-    return {.width = kColumns, .row_count = kRows, .sample_count = samples, .samples_per_pixel = samples};
+    return {.width = kColumns, .row_count = kRows, .sample_count = samples, .in_middle = samples == 1};
 }
 
 class FirstSurfacesTest : public test::DeviceTest {};
@@ -116,8 +116,7 @@ TEST_F(FirstSurfacesTest, WindowsAndBlocksOfSamplesDoNotChangeABit) {
                                 .width = 9,
                                 .row_count = 13,
                                 .first_sample = 2,
-                                .sample_count = 3,
-                                .samples_per_pixel = kSamples};
+                                .sample_count = 3};
         const std::vector<uint> part = see(device, scene, block);
         ASSERT_EQ(part.size(), block.size());
         for (uint i = 0; i < part.size(); ++i) {

@@ -77,7 +77,7 @@ TEST_F(SmallLaunchesTest, FirstSurfaces) {
     expect_same_of_both_trees([](Device& device) {
         const test::SceneOnDevice scene(device, bright_corner());
         const Camera camera = make_camera(scene.scene.camera, 5, 3);
-        const SampleBlock block{.width = camera.width, .row_count = camera.height};
+        const SampleBlock block{.width = camera.width, .row_count = camera.height, .in_middle = true};
         Buffer<uint> found(device, block.size());
         FirstSurfaces(device).run(scene.buffers, Buffer<Camera>(device, std::span(&camera, 1)), block, 1,
                                   found);

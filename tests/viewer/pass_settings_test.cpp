@@ -17,6 +17,7 @@ TEST(PassSettings, PassesShareTheWhole) {
     EXPECT_EQ(pass.direct_samples_per_pixel, 2u);
     EXPECT_EQ(pass.rays_per_pixel, 4u);
     EXPECT_EQ(pass.strata, 16u);
+    EXPECT_TRUE(pass.spread_single_samples) << "edges would stay jagged, however many passes there are";
 }
 
 TEST(PassSettings, EveryPassHasARay) {
@@ -38,6 +39,7 @@ TEST(PassSettings, QuickPicturesAskLeast) {
         EXPECT_EQ(pass.samples_per_pixel, 1u);
         EXPECT_EQ(pass.rays_per_pixel, 1u);
         EXPECT_FALSE(pass.compensate);
+        EXPECT_FALSE(pass.spread_single_samples) << "edges of pictures that follow one another would tremble";
         EXPECT_EQ(pass.strata, 250u) << "eight VPLs a pixel";
     }
 }
