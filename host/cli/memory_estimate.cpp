@@ -4,10 +4,12 @@
 #include <numeric>
 #include <span>
 
+#include "host/session/plan.h"
 #include "host/session/splat_rows.h"
 #include "host/stages/splats.h"
 #include "kernels/shared/camera_pass.h"
 #include "kernels/shared/film_layers.h"
+#include "kernels/shared/shared_light.h"
 
 namespace nearlight::core {
 namespace {
@@ -22,14 +24,41 @@ std::uint64_t texture_bytes(const Scene& scene) {
                            });
 }
 
-/// The bytes of a pixel's splats on the device, with the default settings: those of samples, their sums over
-/// rows, and those of the light that camera paths bring on their own, which are there twice for the pixels
-/// that get more such paths.
-std::uint64_t splat_bytes_per_pixel(const SceneCamera& camera) {
+/// The receivers of a batch on a CPU (Tunables::batch_receivers). GPUs take more of their larger memory.
+constexpr std::size_t kBatchReceivers = std::size_t{1} << 18u;
+
+/// The bytes of a receiver: where it lies, the surface that the camera sees there, its light of three kinds,
+/// and what its rays find nearby.
+constexpr std::uint64_t kReceiverBytes =
+    (sizeof(ReceiverPacket) + 3 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE + sizeof(CameraVertex) +
+    sizeof(SharedLight);
+
+/// The bytes of a pixel: its sums and layers, the further camera paths that it may get, and its splats: those
+/// of samples, their sums over rows, and those of the light that camera paths bring on their own, which are
+/// there twice.
+std::uint64_t pixel_bytes(const SceneCamera& camera) {
+    constexpr std::uint64_t kLayers = (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
+    constexpr std::uint64_t kRefinement = 2 * (sizeof(CameraLight) + sizeof(uint));
     const uint reach = splat_reach(camera, {});
-    return reach == 0 ? 0
-                      : splats_per_pixel(reach) * (sizeof(Splat) + 2 * sizeof(CameraSplat)) +
-                            splat_rows(reach) * sizeof(RowSplat);
+    const std::uint64_t splats = reach == 0
+                                     ? 0
+                                     : splats_per_pixel(reach) * (sizeof(Splat) + 2 * sizeof(CameraSplat)) +
+                                           splat_rows(reach) * sizeof(RowSplat);
+    return kLayers + kRefinement + splats;
+}
+
+/// What a band of the picture takes on a device, with the default settings and camera paths that divide.
+std::uint64_t band_bytes(const SceneCamera& camera) {
+    const GatherSettings settings;
+    const RenderPlan plan =
+        make_plan(std::span(&kBatchReceivers, 1), {.width = static_cast<uint>(camera.width),
+                                                   .height = static_cast<uint>(camera.height),
+                                                   .samples_per_pixel = settings.samples_per_pixel,
+                                                   .branch_count = 2,
+                                                   .strata = settings.strata_or_auto()});
+    const std::uint64_t pixels =
+        std::uint64_t{plan.cover.width} * plan.tile_rows_per_band * NEARLIGHT_TILE_SIZE;
+    return plan.max_packets() * NEARLIGHT_PACKET_SIZE * kReceiverBytes + pixels * pixel_bytes(camera);
 }
 
 }  // namespace
@@ -46,13 +75,6 @@ MemoryEstimate estimate_memory(const Scene& scene) {
         entries * (sizeof(BvhTriangle) + sizeof(uint)) + entries / kTrianglesPerLeaf * sizeof(BvhNode);
     const std::uint64_t textures = texture_bytes(scene);
     const std::uint64_t environment = scene.environment.radiance.size();
-    constexpr std::uint64_t kReceiverBytes =
-        (sizeof(ReceiverPacket) + 2 * sizeof(IrradiancePacket)) / NEARLIGHT_PACKET_SIZE +
-        sizeof(CameraVertex);
-    constexpr std::uint64_t kRefinementBytes = 2 * (sizeof(CameraLight) + sizeof(uint));
-    constexpr std::uint64_t kPixelBytes =
-        kReceiverBytes + kRefinementBytes +
-        (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
     MemoryEstimate estimate;
     estimate.host = {{"geometry", geometry},
                      {"trees", trees},
@@ -64,7 +86,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
                        {"trees", trees},
                        {"textures", textures},
                        {"environment", environment * 5 * sizeof(float)},
-                       {"picture", pixels * (kPixelBytes + splat_bytes_per_pixel(scene.camera))}};
+                       {"picture", band_bytes(scene.camera)}};
     return estimate;
 }
 

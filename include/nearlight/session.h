@@ -111,8 +111,10 @@ using RowSink = std::function<void(std::span<const float> rows)>;
 /// The names of the channels of every picture, in order. R, G and B are the radiance in W/(m² sr) that the
 /// camera receives; direct.* and indirect.* are its two parts. The other layers describe what is seen:
 /// albedo.*, the unit normal N.*, the position P.* and the distance depth.Z in metres, and closerange.Y, the
-/// share of the pixel that lies in the close range. variance.* is the estimated variance of R, G and B; it is
-/// 0 if the picture has a single sample per pixel. A is the part of the pixel that surfaces cover.
+/// share of the pixel that lies in the close range. The distance is that of the first surface; the others
+/// belong to the first one with a Lambertian part, behind mirrors and glass too, and are 0 where there is
+/// none. variance.* is the estimated variance of R, G and B; it is 0 if the picture has a single sample per
+/// pixel. A is the part of the pixel that surfaces cover.
 NEARLIGHT_API std::vector<std::string> picture_channels();
 
 /// A scene on devices, ready from construction on for any number of views, sets of VPLs and pictures. Equal

@@ -60,9 +60,18 @@ TEST(SceneSummary, MemoryOfAllParts) {
         }
         EXPECT_EQ(place["total"], sum);
     }
-    const std::uint64_t before = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
-    scene.camera.width *= 2;
-    EXPECT_EQ(scene_summary_json(scene)["memory_bytes"]["device"]["picture"], 2 * before);
+}
+
+/// Devices hold a band of the picture, hosts all of it.
+TEST(SceneSummary, MemoryOfTallPictures) {
+    Scene scene = one_lamp();
+    scene.camera.width = 1024;
+    scene.camera.height = 2048;
+    const nlohmann::ordered_json half = scene_summary_json(scene)["memory_bytes"];
+    scene.camera.height *= 2;
+    const nlohmann::ordered_json whole = scene_summary_json(scene)["memory_bytes"];
+    EXPECT_EQ(whole["device"]["picture"], half["device"]["picture"]);
+    EXPECT_EQ(whole["host"]["picture"], 2 * half["host"]["picture"].get<std::uint64_t>());
 }
 
 /// Half floats take two words a texel, and what vertices have for textures counts with them.
@@ -78,13 +87,14 @@ TEST(SceneSummary, MemoryOfTexturesOfAllKinds) {
     EXPECT_EQ(json["memory_bytes"]["device"]["textures"], 400 + 800 + 4 * 12 + 4 * 8);
 }
 
-/// A filter that reaches two pixels beyond its own brings light to 25 pixels in 5 rows.
+/// A filter that reaches two pixels beyond its own brings light to 25 pixels in 5 rows. A band has 16 rows of
+/// the picture.
 TEST(SceneSummary, MemoryOfSplats) {
     Scene scene = one_lamp();
     const std::uint64_t without = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
     scene.camera.filter = {.kind = FilterKind::gaussian, .radius = 2.0};
     const std::uint64_t with = scene_summary_json(scene)["memory_bytes"]["device"]["picture"];
-    EXPECT_EQ(with - without, 100 * 50 * (25 * (48 + 2 * 32) + 5 * 80));
+    EXPECT_EQ(with - without, 100 * 16 * (25 * (48 + 2 * 32) + 5 * 80));
 }
 
 TEST(SceneSummary, TextTellsTheSame) {
