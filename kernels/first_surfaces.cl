@@ -23,8 +23,8 @@ static inline bool is_absent(const SceneView* scene, const SurfaceHit* hit, cons
     return surface_bsdf(scene, hit, start->ray.direction, BSDF_CAMERA, u).bsdf.model == NEARLIGHT_BSDF_NULL;
 }
 
-static inline SurfaceHit first_surface(const SceneView* scene, const global Camera* camera,
-                                       const CameraSample* start) {
+static inline SurfaceHit first_seen(const SceneView* scene, const global Camera* camera,
+                                    const CameraSample* start) {
     SurfaceHit hit = trace_first(scene, camera, &start->ray);
     for (uint step = 0; hit.t >= 0.0f && is_absent(scene, &hit, start, step); ++step) {
         const float3 origin = ray_origin(scene, &hit, start->ray.direction);
@@ -46,6 +46,6 @@ kernel void first_surfaces(SCENE_PARAMETERS, const global Camera* restrict camer
     const SceneView scene = SCENE_VIEW;
     const CameraSample start = camera_sample(camera, first_column + pixel % width, first_row + pixel / width,
                                              first_sample + index % sample_count, in_middle, seed);
-    const SurfaceHit hit = first_surface(&scene, camera, &start);
+    const SurfaceHit hit = first_seen(&scene, camera, &start);
     triangles[index] = hit.t >= 0.0f ? hit.triangle : ~0u;
 }

@@ -23,10 +23,10 @@
 #include "shared/light_tracer.h"
 
 /// Whether patches supply the direct light at this point: its triangle was selected and, where the policy
-/// decides point by point, the point itself lies in the region.
-static inline bool is_close_surface(const global CloseRange* region, const global uint* close_triangles,
+/// decides point by point, the point itself lies in the close range.
+static inline bool is_close_surface(const global CloseRange* close_range, const global uint* close_triangles,
                                     uint whole_triangles, uint triangle, float3 position) {
-    return close_triangles[triangle] && (whole_triangles || in_close_range(region, position));
+    return close_triangles[triangle] && (whole_triangles || in_close_range(close_range, position));
 }
 
 /// The part of the walks that a surface sends on.
@@ -36,14 +36,15 @@ static inline float survival(const SceneView* scene, const EmittedParticle* part
     return clamp(max_component(reflected) / max_component(particle->flux), min_survival, max_survival);
 }
 
-/// Where the light of a walk may be kept.
-typedef struct Region {
+/// The close range, and which triangles were selected there; the policy decides by them what is kept of a
+/// walk.
+typedef struct ClosePlaces {
     const global CloseRange* close_range;
     const global uint* close_triangles;
-} Region;
+} ClosePlaces;
 
 /// Follows the walk number `walk` of all, writes what is kept of it to `vpls`, and returns how much that is.
-OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const Region* region,
+OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const ClosePlaces* close,
                                  const LightTracerParams* params, const WalkAim* aim, uint walk,
                                  global Vpl* vpls) {
     const uint seed = params->seed;
@@ -60,7 +61,7 @@ OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const Region* region,
             break;
         }
         const float3 reflected = reflected_flux(scene, &particle, &at);
-        const bool is_close = is_close_surface(region->close_range, region->close_triangles,
+        const bool is_close = is_close_surface(close->close_range, close->close_triangles,
                                                params->whole_triangles, at.hit.triangle, at.hit.position);
         const bool kept = params->keep == NEARLIGHT_KEEP_ALL || !is_close ||
                           (params->keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
@@ -82,8 +83,8 @@ kernel void light_tracer(SCENE_PARAMETERS, const global CloseRange* restrict clo
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const Region region = {close_range, close_triangles};
-    counts[index] = follow_walk(&scene, &region, &params, &aim, params.first_walk + index,
+    const ClosePlaces close = {close_range, close_triangles};
+    counts[index] = follow_walk(&scene, &close, &params, &aim, params.first_walk + index,
                                 vpls + index * params.bounce_count);
 }
 

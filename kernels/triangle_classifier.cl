@@ -19,10 +19,10 @@ static inline bool carries_vpls(const global Material* material) {
     return (material->flags & (NEARLIGHT_MATERIAL_DIFFUSE_FRONT | NEARLIGHT_MATERIAL_DIFFUSE_BACK)) != 0;
 }
 
-static inline bool reaches_into(const global CloseRange* region, float3 a, float3 b, float3 c,
+static inline bool reaches_into(const global CloseRange* close_range, float3 a, float3 b, float3 c,
                                 float3 normal) {
-    const float3 origin = load3(region->origin);
-    const float margin = close_margin(region, a, b, c);
+    const float3 origin = load3(close_range->origin);
+    const float margin = close_margin(close_range, a, b, c);
     // Positions and planes are relative to the camera, so that numbers are small where accuracy matters.
     Polygon polygon;
     polygon.vertices[0] = a - origin;
@@ -30,17 +30,17 @@ static inline bool reaches_into(const global CloseRange* region, float3 a, float
     polygon.vertices[2] = c - origin;
     polygon.count = 3;
     for (int i = 0; i < 5; ++i) {
-        const global float* plane = region->planes[i];
+        const global float* plane = close_range->planes[i];
         clip_polygon(&polygon, (float3)(plane[0], plane[1], plane[2]), plane[3] + margin);
     }
-    const float range = region->range + margin;
+    const float range = close_range->range + margin;
     return squared_distance_to_polygon(&polygon, normal) < range * range;
 }
 
 kernel void classify_triangles(const global Vertex* restrict vertices,
                                const global Triangle* restrict triangles,
                                const global Material* restrict materials,
-                               const global CloseRange* restrict region, uint whole_triangles,
+                               const global CloseRange* restrict close_range, uint whole_triangles,
                                global uint* restrict flags, global float* restrict areas,
                                uint triangle_count) {
     const uint i = (uint)get_global_id(0);
@@ -53,11 +53,11 @@ kernel void classify_triangles(const global Vertex* restrict vertices,
     const float3 c = load3(vertices[triangle.v2].position);
     const float3 normal = cross(b - a, c - a);
     const float area = 0.5f * sqrt(dot(normal, normal));
-    const bool is_close =
-        area > 0.0f && carries_vpls(materials + triangle.material) && reaches_into(region, a, b, c, normal);
+    const bool is_close = area > 0.0f && carries_vpls(materials + triangle.material) &&
+                          reaches_into(close_range, a, b, c, normal);
     float part = 1.0f;
     if (is_close && !whole_triangles) {
-        const Polygon close = close_part(region, a, b, c);
+        const Polygon close = close_part(close_range, a, b, c);
         part = part_of_area(&close);
     }
     areas[i] = area * part;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each VPL brings to the camera: the column sums of the receiver × VPL matrix, over some receivers.
 //
-// Coats and shading normals of VPLs do not count here. Without them the matrix is symmetric in its geometry,
-// so the gather serves here too, with the roles exchanged: the receivers of the camera send out importance as
-// VPLs send light (importons, host/stages/pilot_view.h), and the VPLs receive it. The response is the
-// reflectance (divided by π) times the weight of the camera path.
-// The sums are over the importons:
+// Shading normals of VPLs do not count here, nor do coats of receivers for the light that arrives. Without
+// them the matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the
+// receivers of the camera send out importance as VPLs send light (importons, host/stages/pilot_view.h), and
+// the VPLs receive it through their coats. The response is the reflectance (divided by π) times the weight of
+// the camera path. The sums are over the importons:
 // - With squared = 0, it is Σ luminance(response · G · V · power/π), which the VPL brings.
 // - With squared = 1, it is the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by
 //   chance, the error of the picture is smallest when the probabilities follow this. The importance must be

@@ -71,7 +71,7 @@ static inline SurfaceSample sample_on_triangle(const global Vertex* restrict ver
 /// Places point k of `sample_count`, one in each work-item.
 kernel void place_samples(const global Vertex* restrict vertices, const global Triangle* restrict triangles,
                           const global uint* restrict ids, const global ulong* restrict area_sums,
-                          const global CloseRange* restrict region, uint whole_triangles,
+                          const global CloseRange* restrict close_range, uint whole_triangles,
                           global SurfaceSample* restrict samples, uint triangle_count, uint sample_count,
                           uint seed) {
     const uint k = (uint)get_global_id(0);
@@ -90,8 +90,8 @@ kernel void place_samples(const global Vertex* restrict vertices, const global T
     float2 weights = square_to_triangle(u);
     if (!whole_triangles) {
         const Polygon part =
-            close_part(region, load3(vertices[triangle.v0].position), load3(vertices[triangle.v1].position),
-                       load3(vertices[triangle.v2].position));
+            close_part(close_range, load3(vertices[triangle.v0].position),
+                       load3(vertices[triangle.v1].position), load3(vertices[triangle.v2].position));
         weights = square_to_part(&part, u);
     }
     samples[k] = sample_on_triangle(vertices, triangle, id, weights);

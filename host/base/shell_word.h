@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Words of a shell's command line.
 #pragma once
 
 #include <string>

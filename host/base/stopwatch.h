@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A clock for how long something takes.
 #pragma once
 
 #include <chrono>

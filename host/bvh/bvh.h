@@ -36,8 +36,8 @@ struct BvhConfig {
 /// Construction of SAH-based Bounding Volume Hierarchies, 2007]. The work is parallel, with the same result
 /// for any number of threads; `quality` adds spatial_split.h, reinsertion.h and child_order.h. Boxes are
 /// padded by two ulps of their largest coordinate, so that slab tests never miss a flat one. Building takes
-/// 100 bytes a triangle, `quality` 170. Throws Error(ErrorKind::out_of_memory) beyond 2^27 − 1 triangles,
-/// among which max_duplication counts as if it were used.
+/// 100 bytes a triangle, `quality` 170. Throws Error(ErrorKind::out_of_memory) beyond 2^27 − 1 triangles.
+/// Near that number fewer triangles are cut than max_duplication allows.
 Bvh build_bvh(const Scene& scene, std::span<const uint> ids, const BvhConfig& config = {});
 
 /// The ids of the triangles that the tree was built over, in ascending order, each once.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Turns a tree as it was built into its final layout.
 #pragma once
 
 #include "host/bvh/bvh.h"

@@ -15,7 +15,7 @@ namespace {
 
 /// A subtree with no more triangles than this is widened by one thread.
 constexpr uint kPartTriangles = 1u << 14u;
-constexpr std::size_t kFetchGrain = 1u << 10u;
+constexpr std::size_t kBlockGrain = 1u << 10u;
 
 /// A wide node with the boxes of its children, but without references to them.
 WideNode make_node(const WideChildren& children) {
@@ -203,7 +203,7 @@ WideBvh widen(const Bvh& bvh) {
 
 void fetch_blocks(WideBvh& wide, const Scene& scene) {
     wide.blocks.resize(wide.triangle_ids.size() / NEARLIGHT_BLOCK_TRIANGLES);
-    parallel_for(wide.blocks.size(), kFetchGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(wide.blocks.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             wide.blocks[i] =
                 fetch_block(scene, std::span(wide.triangle_ids)

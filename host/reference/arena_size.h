@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How many threads a TBB arena of the reference has.
 #pragma once
 
 #include <tbb/task_arena.h>

@@ -11,9 +11,9 @@
 namespace nearlight::core {
 namespace {
 
-void add_square(Double3& sum, const Double3& a, const Double3& b, int divisor) {
+void add_square(VectorSum& sum, const VectorSum& a, const VectorSum& b, int divisor) {
     const auto square = [divisor](double value) { return value / divisor * (value / divisor); };
-    sum.add(Double3{square(a.x + b.x), square(a.y + b.y), square(a.z + b.z)});
+    sum.add(VectorSum{square(a.x + b.x), square(a.y + b.y), square(a.z + b.z)});
 }
 
 /// Variance of the mean of `batches` batches of equal size, from the sums of the batches' means and of their
@@ -31,13 +31,13 @@ class ChannelWriter {
   public:
     explicit ChannelWriter(float* values) : values_(values) {}
     void number(double value) { *values_++ = static_cast<float>(value); }
-    void mean(const Double3& sum, int count) {
+    void mean(const VectorSum& sum, int count) {
         const double scale = count > 0 ? 1.0 / count : 0.0;
         number(sum.x * scale);
         number(sum.y * scale);
         number(sum.z * scale);
     }
-    void variance(const Double3& sum, const Double3& square_sum, double batch_size, int batches) {
+    void variance(const VectorSum& sum, const VectorSum& square_sum, double batch_size, int batches) {
         number(variance_of_mean(sum.x / batch_size, square_sum.x, batches));
         number(variance_of_mean(sum.y / batch_size, square_sum.y, batches));
         number(variance_of_mean(sum.z / batch_size, square_sum.z, batches));
@@ -49,7 +49,7 @@ class ChannelWriter {
 
 void write_pixel(const PixelStatistics& pixel, float* values) {
     const BatchSum& sum = pixel.sum;
-    Double3 beauty = sum.direct;
+    VectorSum beauty = sum.direct;
     beauty.add(sum.indirect);
     const double batch_size = pixel.batches > 0 ? double(pixel.samples) / pixel.batches : 1.0;
     ChannelWriter out(values);
@@ -115,7 +115,7 @@ class ChannelReader {
     [[nodiscard]] double number(std::size_t pixel, std::size_t place) const {
         return image_.values[pixel * image_.channel_count() + indices_[place]];
     }
-    [[nodiscard]] Double3 sum(std::size_t pixel, std::size_t place, double count) const {
+    [[nodiscard]] VectorSum sum(std::size_t pixel, std::size_t place, double count) const {
         return {number(pixel, place) * count, number(pixel, place + 1) * count,
                 number(pixel, place + 2) * count};
     }
@@ -134,7 +134,7 @@ double square_sum(double sum, double variance, int batches) {
     return batches < 2 ? mean_part : variance * double(batches) * (batches - 1) + mean_part;
 }
 
-Double3 square_sums(const Double3& sum, const Double3& variance, double batch_size, int batches) {
+VectorSum square_sums(const VectorSum& sum, const VectorSum& variance, double batch_size, int batches) {
     return {square_sum(sum.x / batch_size, variance.x, batches),
             square_sum(sum.y / batch_size, variance.y, batches),
             square_sum(sum.z / batch_size, variance.z, batches)};
@@ -164,7 +164,7 @@ PixelStatistics read_pixel(const ChannelReader& in, std::size_t i, int batch_siz
     sum.normal = in.sum(i, kNormal, receivers);
     sum.position = in.sum(i, kPosition, receivers);
     sum.depth = in.number(i, kDepth) * surfaces;
-    Double3 beauty = sum.direct;
+    VectorSum beauty = sum.direct;
     beauty.add(sum.indirect);
     pixel.beauty_square = square_sums(beauty, in.sum(i, kVariance, 1.0), batch_size, pixel.batches);
     pixel.indirect_square =

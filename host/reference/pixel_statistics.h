@@ -11,14 +11,15 @@
 
 namespace nearlight::core {
 
-struct Double3 {
+/// A sum of colours or vectors in double precision.
+struct VectorSum {
     double x = 0, y = 0, z = 0;
     void add(Vec3 v) {
         x += v.x;
         y += v.y;
         z += v.z;
     }
-    void add(const Double3& v) {
+    void add(const VectorSum& v) {
         x += v.x;
         y += v.y;
         z += v.z;
@@ -27,7 +28,7 @@ struct Double3 {
 
 /// Sums over the samples of one batch.
 struct BatchSum {
-    Double3 direct, indirect, albedo, normal, position;
+    VectorSum direct, indirect, albedo, normal, position;
     double depth = 0;
     int receivers = 0;
     int surfaces = 0;  ///< number of samples that met a surface
@@ -38,7 +39,7 @@ struct BatchSum {
 /// Sums over the batches of a pixel, and sums of the squares of the batches' means.
 struct PixelStatistics {
     BatchSum sum;
-    Double3 beauty_square, indirect_square;
+    VectorSum beauty_square, indirect_square;
     int samples = 0;
     int batches = 0;
 

@@ -283,17 +283,22 @@ std::vector<Vpl> roughly_lit(const Candidates& candidates, std::span<const Vec3>
     return lit;
 }
 
+/// Counts the close and the distant ones of a set's VPLs.
+void count_close(std::span<const Vpl> vpls, VplSet& set) {
+    set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
+    set.distant_count = vpls.size() - set.close_count;
+    set.close_fraction =
+        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
+}
+
 VplSet sample_for_cuts(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     const std::vector<Vpl> deposits =
         trace_about(stages, task, region, KeepDeposits::all, deposit_count(task)).vpls;
     const std::vector<Vpl> vpls = screened(task, weigh_deposits(stages, task, deposits), task.vpl_count);
     VplSet set;
     set.vpls = VplBuffer(stages.device, vpls);
-    set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
-    set.distant_count = vpls.size() - set.close_count;
+    count_close(vpls, set);
     set.candidate_count = deposits.size();
-    set.close_fraction =
-        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
     return set;
 }
 
@@ -321,12 +326,9 @@ VplSet sample_complete(SamplerStages& stages, const SamplingTask& task, CloseSur
     illuminate(patches, incident_light_at(stages, task, candidates.sparse, patches, kFull, task.seed));
     VplSet set;
     set.vpls = stages.vpl_order.sort(vpls);
-    set.close_count = static_cast<std::size_t>(std::ranges::count_if(vpls, is_close));
-    set.distant_count = vpls.size() - set.close_count;
+    count_close(vpls, set);
     set.sparse_count = candidates.sparse.vpls.count() + rough_sparse.vpls.count();
     set.candidate_count = candidates.vpls.size();
-    set.close_fraction =
-        static_cast<float>(set.close_count) / static_cast<float>(std::max<std::size_t>(vpls.size(), 1));
     return set;
 }
 

@@ -22,7 +22,7 @@ constexpr uint kMaxSparseDeposits = 1u << 20u;
 /// The clamp radius that the sparse set is gathered with, as a part of the range. It is large because a
 /// strong VPL beside a point would make that point's power an outlier, and the paths that supply the missing
 /// light are cheap.
-constexpr float kClampRadiusToRange = 0.1f;
+constexpr float kSparseRadiusToRange = 0.1f;
 
 template <typename Packet>
 std::vector<Vec3> first_lanes(const Buffer<Packet>& buffer, std::size_t count) {
@@ -40,7 +40,7 @@ std::vector<Vec3> first_lanes(const Buffer<Packet>& buffer, std::size_t count) {
 SparseSet draw_sparse_set(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits,
                           std::span<const float> weights, std::size_t wanted, uint seed) {
     SparseSet sparse;
-    sparse.clamp_radius = kClampRadiusToRange * task.close_range.range;
+    sparse.clamp_radius = kSparseRadiusToRange * task.close_range.range;
     if (task.bounce_count > 1) {
         std::vector<float> usable(weights.begin(), weights.end());
         for (std::size_t i = 0; i < usable.size(); ++i) {

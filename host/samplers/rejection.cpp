@@ -40,7 +40,7 @@ constexpr double kMaxCandidatesPerVpl = 32;
 constexpr double kRejectionBlindShare = 0.1;
 
 constexpr uint kFirstPilotWalks = 2048;
-constexpr uint kMaxPilotWalks = 32768;
+constexpr uint kEnoughPilotWalks = 32768;  ///< no further round begins after so many walks
 constexpr std::ptrdiff_t kEnoughContributors = 512;
 constexpr uint kRejectionPilotSeed = 0x4e1ec7u;
 constexpr std::uint64_t kDecisions = 0xacce97;
@@ -82,7 +82,7 @@ struct Pilot {
 Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     Pilot pilot;
     const auto contributes = [](float contribution) { return contribution > 0.0f; };
-    for (uint round = 0; pilot.walk_count < kMaxPilotWalks; ++round) {
+    for (uint round = 0; pilot.walk_count < kEnoughPilotWalks; ++round) {
         const LightWalks walks =
             light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
         stages.light_tracer.run(

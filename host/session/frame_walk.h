@@ -25,16 +25,17 @@ struct FrameSource {
     std::function<Scene(const SceneMoment&)> load;
     /// As camera_at() of scene_loader.h.
     std::function<std::optional<SceneCamera>(const Scene&, const SceneMoment&)> camera_at;
-    std::function<void()> before_change{};               ///< the scene is about to change; may be empty
-    std::function<void(double seconds)> after_change{};  ///< it did, which took so long; may be empty
+    std::function<void()> before_change{};  ///< called before the scene changes; may be empty
+    /// Called after it has changed, with the seconds that took; may be empty.
+    std::function<void(double seconds)> after_change{};
 };
 
 /// A scene and what is made for it, from one frame to the next. Where only the camera moves, trees and VPLs
 /// stay on the devices. What a frame looks like does not depend on which others were made before.
 class FrameWalk {
   public:
-    /// The devices must outlive the walk, and so must `scene`, which then is that of the frame to which the
-    /// walk went last. If there is one, it is that of the frame `at`.
+    /// The devices must outlive the walk, and so must `scene`, in which the walk keeps its scene: after
+    /// go_to() it holds that frame's. If it holds a scene already, that is the one of frame `at`.
     FrameWalk(FrameSource source, AnimationOptions options, std::vector<Device*> devices,
               const SessionOptions& session_options, std::unique_ptr<Scene>& scene, int at = 0)
         : source_(std::move(source)),

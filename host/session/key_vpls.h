@@ -16,8 +16,9 @@ struct JoinedVpls {
     VplSet set;  ///< without its VPLs
     std::vector<Vpl> vpls;
 };
-/// What Session::join() makes of its parts, in no order. Rays begin where they do on average, and there are
-/// as many light samples as the part with the most of them asks for.
+/// What Session::join() makes of its parts; the VPLs are not sorted yet. If every part has a ray budget, the
+/// clamp radius is the weighted mean of theirs, light samples and aimed rays are the most that any part has,
+/// and the shared limit is the least.
 JoinedVpls join_on_host(std::span<const VplPart> parts);
 
 /// A view of a walk for which VPLs are made.
@@ -42,7 +43,8 @@ class KeyVpls {
     [[nodiscard]] bool has_views() const { return !views_.empty(); }
     [[nodiscard]] const std::vector<KeyView>& views() const { return views_; }
 
-    /// The VPLs of a pass of the picture, of whose view only the pilot is asked for.
+    /// The VPLs of a pass of the picture. Of `view` only `ray_budget_pilot` counts, because all else is that
+    /// of the key views.
     VplSet make(Session& session, const ViewSettings& view, const SamplingSettings& sampling, uint seed);
 
   private:

@@ -29,7 +29,8 @@ struct MattePass {
 /// false if it wants no more.
 using MatteSink = std::function<bool(std::span<const float> rows)>;
 
-/// The rows of the window in bands, each of which is a launch for most passes.
+/// Divides the rows of the window into bands in which one launch has room for all samples of the largest
+/// pass, unless a single row has more.
 std::vector<PixelWindow> matte_bands(const PixelWindow& window, std::span<const MattePass> passes);
 /// The launches for the samples of one pass in a band.
 std::vector<SampleBlock> sample_blocks(const PixelWindow& band, const MattePass& pass);

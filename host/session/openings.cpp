@@ -23,7 +23,7 @@ constexpr int kMaxSurfaces = 4;
 constexpr int kMaxPanes = 8;  ///< that a path passes between two surfaces
 /// Paths are outside at this many radii of the surroundings from their centre.
 constexpr float kOutsideInRadii = 2.0f;
-/// The camera looks at open country if more of its paths are outside after the first ray.
+/// The camera looks at open country if more of its paths than this part are outside, after whichever surface.
 constexpr double kMaxOutsidePart = 0.25;
 /// The largest opening, in radii of the surroundings. Walks that aim at a larger one win little.
 constexpr float kMaxRadius = 0.5f;

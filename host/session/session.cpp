@@ -50,7 +50,8 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
             .seed = seed};
 }
 
-/// About `wanted` of the VPLs, evenly along their order and with as much more power.
+/// About `wanted` of the VPLs, at even distances along their order. Each has the power of all for which it
+/// stands.
 VplBuffer thinned(Device& device, const VplBuffer& vpls, std::size_t wanted, uint seed) {
     const std::vector<Vpl> all = vpls.download();
     const std::size_t step = all.size() / wanted;

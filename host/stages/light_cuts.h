@@ -28,8 +28,8 @@ struct CutTask {
     const CutTree& tree;  ///< over these VPLs
     const Buffer<ReceiverPacket>& receivers;
     std::size_t packet_count = 0;
-    /// The strata of the bundles. With cuts, all VPLs belong to every stratum; the number of strata divides
-    /// `asked_count`, and bundles of different strata draw different VPLs.
+    /// The strata of the bundles. With cuts, all VPLs belong to every stratum: a bundle draws asked_count ÷
+    /// strata VPLs, and bundles of different strata draw different ones.
     const VplStrata& strata;
     float clamp_radius = 0.0f;    ///< R of the bounded geometry term, m
     std::size_t asked_count = 0;  ///< VPLs that bundles of all strata ask about together

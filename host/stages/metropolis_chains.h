@@ -36,7 +36,8 @@ struct PathSpace {
     Buffer<float> depth_cdf;  ///< bounce_count values, the last 1; every depth has a positive probability
 };
 
-/// Cumulative probabilities of the depths 1 to bounce_count, in proportion to mean_albedo^depth.
+/// Cumulative probabilities of the depths 1 to bounce_count, in proportion to s^depth, where s is mean_albedo
+/// within [kMinSurvival, kMaxSurvival]. No depth has less than 1e-4 of the first one's probability.
 Buffer<float> make_depth_cdf(Device& device, uint bounce_count, float mean_albedo);
 
 class MetropolisChains {

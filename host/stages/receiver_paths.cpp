@@ -20,7 +20,7 @@ uint shared_kinds(const ReceiverPathSettings& settings) {
            (settings.shares_reflections ? NEARLIGHT_SHARES_REFLECTIONS : 0u);
 }
 
-ReceiverPathParams params_of(const ReceiverBatch& batch, uint shared_kinds) {
+ReceiverPathParams params_of(const ReceiverBatch& batch, uint kinds) {
     const ReceiverPathSettings& settings = batch.settings;
     return {.packet_count = static_cast<uint>(batch.packet_count),
             .light_samples = settings.light_samples,
@@ -28,7 +28,7 @@ ReceiverPathParams params_of(const ReceiverBatch& batch, uint shared_kinds) {
             .max_edges = settings.max_edges,
             .clamp_radius = settings.clamp_radius,
             .seed = settings.seed,
-            .shares = shared_kinds,
+            .shares = kinds,
             .aimed_rays = settings.rays > 0 ? settings.aimed_rays : 0,
             .shared_limit = settings.shared_limit};
 }
@@ -76,11 +76,11 @@ CausticErrors ReceiverPaths::caustic_errors(const ReceiverBatch& batch) {
     return {unaimed.download(), aimed.download()};
 }
 
-void ReceiverPaths::launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
+void ReceiverPaths::launch(const ReceiverBatch& batch, uint kinds, Buffer<IrradiancePacket>& direct,
                            Buffer<IrradiancePacket>& indirect, FoundLights& found) {
     receiver_paths_.launch_items(batch.packet_count * NEARLIGHT_PACKET_SIZE, batch.scene,
-                                 VeilsForRays{batch.scene}, batch.receivers, params_of(batch, shared_kinds),
-                                 direct, indirect, found.near, found.sky, found.veiled, found.reflected,
+                                 VeilsForRays{batch.scene}, batch.receivers, params_of(batch, kinds), direct,
+                                 indirect, found.near, found.sky, found.veiled, found.reflected,
                                  found.reflections, found.spacing, batch.scene.caustic_aims);
 }
 

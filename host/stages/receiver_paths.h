@@ -90,7 +90,7 @@ class ReceiverPaths {
     [[nodiscard]] CausticErrors caustic_errors(const ReceiverBatch& batch);
 
   private:
-    void launch(const ReceiverBatch& batch, uint shared_kinds, Buffer<IrradiancePacket>& direct,
+    void launch(const ReceiverBatch& batch, uint kinds, Buffer<IrradiancePacket>& direct,
                 Buffer<IrradiancePacket>& indirect, FoundLights& found);
 
     Program program_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates how much each VPL brings to the camera, from a sample of receivers. Coats and shading normals do
-// not count, since the estimates only say which VPLs are worth being kept or asked.
+// Estimates how much each VPL brings to the camera, from a sample of receivers. The coat over a VPL counts,
+// except in errors without occlusion. Shading normals of VPLs do not, nor do coats of the receivers for the
+// light that arrives, since the estimates only say which VPLs are worth being kept or asked.
 #pragma once
 
 #include "host/cl/kernel.h"

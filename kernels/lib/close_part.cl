@@ -11,29 +11,30 @@
 /// A margin relative to the size of coordinates. It is more than rounding can move a point by.
 #define ROUNDING_MARGIN 4e-6f
 
-/// How far rounding can move points of a triangle with these corners against the planes of the region, m.
-static inline float close_margin(const global CloseRange* region, float3 a, float3 b, float3 c) {
-    const float3 origin = load3(region->origin);
+/// How far rounding can move points of a triangle with these corners against the planes of the close range,
+/// m.
+static inline float close_margin(const global CloseRange* close_range, float3 a, float3 b, float3 c) {
+    const float3 origin = load3(close_range->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     return ROUNDING_MARGIN * max_component(reach);
 }
 
-/// The part of a triangle between the planes of the region, the sphere of the range among them as the plane
-/// that faces the camera at that distance. It holds all points of the triangle that in_close_range() accepts.
-/// A vertex (u, v, 0) of the polygon is the point a + u · (b − a) + v · (c − a).
-static inline Polygon close_part(const global CloseRange* region, float3 a, float3 b, float3 c) {
-    const float3 origin = load3(region->origin);
-    const float margin = close_margin(region, a, b, c);
+/// The part of a triangle between the planes of the close range, the sphere of the range among them as the
+/// plane that faces the camera at that distance. It holds all points of the triangle that in_close_range()
+/// accepts. A vertex (u, v, 0) of the polygon is the point a + u · (b − a) + v · (c − a).
+static inline Polygon close_part(const global CloseRange* close_range, float3 a, float3 b, float3 c) {
+    const float3 origin = load3(close_range->origin);
+    const float margin = close_margin(close_range, a, b, c);
     Polygon part;
     part.vertices[0] = (float3)(0.0f, 0.0f, 0.0f);
     part.vertices[1] = (float3)(1.0f, 0.0f, 0.0f);
     part.vertices[2] = (float3)(0.0f, 1.0f, 0.0f);
     part.count = 3;
     for (int i = 0; i < 6; ++i) {
-        const global float* plane = region->planes[min(i, 4)];
+        const global float* plane = close_range->planes[min(i, 4)];
         const float3 forward = (float3)(plane[0], plane[1], plane[2]);
         const float3 normal = i < 5 ? forward : -forward;
-        const float offset = i < 5 ? plane[3] : region->range;
+        const float offset = i < 5 ? plane[3] : close_range->range;
         clip_polygon(&part, (float3)(dot(normal, b - a), dot(normal, c - a), 0.0f),
                      dot(normal, a - origin) + offset + margin);
     }

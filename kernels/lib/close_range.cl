@@ -6,14 +6,14 @@
 
 #include "lib/math.cl"
 
-static inline bool in_close_range(const global CloseRange* region, float3 p) {
-    const float3 q = p - load3(region->origin);
+static inline bool in_close_range(const global CloseRange* close_range, float3 p) {
+    const float3 q = p - load3(close_range->origin);
     bool inside = true;
     for (int i = 0; i < 5; ++i) {
-        const global float* plane = region->planes[i];
+        const global float* plane = close_range->planes[i];
         inside = inside && plane[0] * q.x + plane[1] * q.y + plane[2] * q.z + plane[3] >= 0.0f;
     }
-    return inside && dot(q, q) < region->range * region->range;
+    return inside && dot(q, q) < close_range->range * close_range->range;
 }
 
 #endif

@@ -29,7 +29,7 @@ static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float fi
 /// What a ray brings over at least one surface, besides what VPLs bring. VPLs stand for the Lambertian part
 /// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light. On these
 /// paths they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
-typedef struct RayShare {
+typedef struct WantedLight {
     float of_vpls;
     uint max_edges;
     uint vpl_edges;      // at least max_edges
@@ -40,14 +40,14 @@ typedef struct RayShare {
                          // to the bundle, as the radiance of the place that sends it on, W/m²/sr
     const CausticAim* aim;  // of the receiver, whose other rays bring a part of the light over mirrors and
                             // glass; null: none of them aims
-} RayShare;
+} WantedLight;
 
 /// How a ray goes on from its first surface.
 typedef struct Continuation {
     uint parts;            // of the first surface that count
     float diffuse_weight;  // of its Lambertian part
     uint max_edges;
-    float near_scale;  // of light over up to RayShare.max_edges edges
+    float near_scale;  // of light over up to WantedLight.max_edges edges
     float far_scale;   // of light over more
     uint is_found;     // 1: the ray brings a light that its receiver shares
     float3 shading;    // normal of the first surface
@@ -60,12 +60,12 @@ typedef struct Continuation {
 /// too much where a map shadows the receiver, and on paths that are too long for a receiver behind mirrors or
 /// glass. There the ray takes light away, by chance `u`, or else brings what is left of the others.
 static inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
-                                               const RayShare* share, float u) {
+                                               const WantedLight* wanted, float u) {
     const bool has_specular = scene->info->has_specular;
-    const float of_vpls = first->mapped == MAPPED_TURNED ? 0.0f : share->of_vpls;
+    const float of_vpls = first->mapped == MAPPED_TURNED ? 0.0f : wanted->of_vpls;
     const float kept = fmax(1.0f - of_vpls, 0.0f);
     const float taken = fmax(of_vpls - 1.0f, 0.0f);
-    const bool is_short = share->vpl_edges > share->max_edges && of_vpls > 0.0f;
+    const bool is_short = wanted->vpl_edges > wanted->max_edges && of_vpls > 0.0f;
     const bool is_kept = kept > 0.0f || has_specular;
     float chance = is_kept ? fmin(0.5f, taken) : fmin(1.0f, 4.0f * taken);
     if (is_short) {
@@ -77,13 +77,13 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
     if (u < chance) {
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
-        way.max_edges = share->vpl_edges;
+        way.max_edges = wanted->vpl_edges;
         way.near_scale = -taken / chance;
         way.far_scale = -of_vpls / chance;
     } else {
         way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
         way.diffuse_weight = kept;
-        way.max_edges = share->max_edges;
+        way.max_edges = wanted->max_edges;
         way.near_scale = 1.0f / (1.0f - chance);
         way.far_scale = 0.0f;
     }
@@ -93,8 +93,8 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
 /// Decides between the parts of a first surface whose Lambertian part sends its light to all receivers of the
 /// bundle.
 static inline void choose_found_light(const SurfaceBsdf* first, bool is_diffuse, float u, Continuation* way) {
-    const bool has_both = first->s_share > 0.0f && !is_diffuse;
-    const float chance = has_both ? clamp(1.0f - first->s_share, 0.25f, 0.75f) : 1.0f;
+    const bool has_both = first->s_probability > 0.0f && !is_diffuse;
+    const float chance = has_both ? clamp(1.0f - first->s_probability, 0.25f, 0.75f) : 1.0f;
     way->is_found = u < chance;
     way->parts = way->is_found ? BSDF_D : BSDF_S;
     way->diffuse_weight = 1.0f;
@@ -104,39 +104,39 @@ static inline void choose_found_light(const SurfaceBsdf* first, bool is_diffuse,
 }
 
 /// Whether VPLs bring all light of the Lambertian part of a first surface whose normal no map turned.
-static inline bool vpls_bring_diffuse(const RayShare* share) {
-    return share->of_vpls == 1.0f && share->vpl_edges <= share->max_edges;
+static inline bool vpls_bring_diffuse(const WantedLight* wanted) {
+    return wanted->of_vpls == 1.0f && wanted->vpl_edges <= wanted->max_edges;
 }
 
 /// The first surface that a ray met, and how the ray goes on from it.
-static inline SurfaceBsdf first_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction,
-                                        const RayShare* share, float2 u, Continuation* way) {
+static inline SurfaceBsdf first_bsdf(const SceneView* scene, const SurfaceHit* hit, float3 direction,
+                                     const WantedLight* wanted, float2 u, Continuation* way) {
     SurfaceBsdf surface =
-        surface_bsdf_of(scene, hit, direction, BSDF_RADIANCE, u.x, vpls_bring_diffuse(share));
-    *way = choose_continuation(scene, &surface, share, u.y);
-    if (share->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
-        choose_found_light(&surface, share->is_diffuse, u.y, way);
+        surface_bsdf_of(scene, hit, direction, BSDF_RADIANCE, u.x, vpls_bring_diffuse(wanted));
+    *way = choose_continuation(scene, &surface, wanted, u.y);
+    if (wanted->is_shared && !surface.mapped && !is_black(surface.bsdf.diffuse)) {
+        choose_found_light(&surface, wanted->is_diffuse, u.y, way);
     }
     surface.bsdf.diffuse *= way->diffuse_weight;
     return surface;
 }
 
 /// What a light sample at the surface number `surfaces` of a path sends back along it. Through veils that
-/// make the path longer than RayShare.max_edges, the light counts as that of a long path.
+/// make the path longer than WantedLight.max_edges, the light counts as that of a long path.
 static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit,
-                                      const SurfaceBsdf* surface, uint parts, const RayShare* share,
+                                      const SurfaceBsdf* surface, uint parts, const WantedLight* wanted,
                                       const Continuation* way, uint surfaces, uint seed) {
-    const bool is_near = surfaces < share->max_edges;
+    const bool is_near = surfaces < wanted->max_edges;
     const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
     float3 sum = (float3)(0.0f);
-    // With n = share->max_edges, m = way->max_edges and L(e) for the light over at most e edges, this is
+    // With n = wanted->max_edges, m = way->max_edges and L(e) for the light over at most e edges, this is
     // near·L(n) + far·(L(m) − L(n)) = (near − far)·L(n) + far·L(m).
 #pragma unroll 1
     for (uint length = 0; length < 2; ++length) {
         const float far_scale = has_far ? way->far_scale : 0.0f;
         const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
         if (scale != 0.0f) {
-            const uint edges = length == 0 ? share->max_edges : way->max_edges;
+            const uint edges = length == 0 ? wanted->max_edges : way->max_edges;
             const LightQuota quota = {1, 1, edges - surfaces - 1, 0, 0};
             sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
         }
@@ -195,15 +195,15 @@ static inline void find_reflected_sample(const SceneView* scene, const SurfaceHi
     ArrivingRay ray;
     ray.direction = light->direction;
     ray.value = bsdf_eval(scene, surface, light->direction, BSDF_S, &ray.pdf);
-    find_reflection(found, place, &ray, scale * part * light_radiance(scene, light),
-                    light->is_delta ? -light->pdf : light->pdf, u);
+    offer_reflection(found, place, &ray, scale * part * light_radiance(scene, light),
+                     light->is_delta ? -light->pdf : light->pdf, u);
 }
 
 /// Takes what lights send to the first surface of a bundle's path into the draw: each light of which
 /// reflected_light() takes all, and one sample of the others. The path counts `scale` times.
-static inline void find_reflected_lights(const SceneView* scene, const SurfaceHit* hit,
-                                         const SurfaceBsdf* surface, const GlossyPlace* place, uint max_veils,
-                                         float scale, uint seed, FoundReflection* found) {
+static inline void offer_reflected_lights(const SceneView* scene, const SurfaceHit* hit,
+                                          const SurfaceBsdf* surface, const GlossyPlace* place,
+                                          uint max_veils, float scale, uint seed, FoundReflection* found) {
     const uint exact = exact_light_count(scene);
     const uint count = exact + (has_sampled_lights(scene) ? 1 : 0);
     const LightReceiver at = even_receiver(hit->position, surface->frame.n);
@@ -223,7 +223,7 @@ typedef struct ContinuedPath {
     Continuation way;
     BundlePath of_bundle;
     float first_weight;      // of the ray's throughput where it began to count
-    float shared_limit;      // RayShare.shared_limit times that weight
+    float shared_limit;      // WantedLight.shared_limit times that weight
     float3 first_direction;  // from the receiver
     float first_cosine;      // of that direction at the receiver
     uint is_specular;        // 1: only mirrors, glass and veils so far, rough glass among them
@@ -244,27 +244,27 @@ static inline void add_by_chance(ContinuedPath* path, float3 light) {
 
 /// The part of the light of a lamp that the path brings which came over mirrors and glass alone. Rays that
 /// aim at these bring the rest.
-static inline float part_beside_aimed(const ContinuedPath* path, const RayShare* share) {
-    return share->aim != 0 && path->is_specular
-               ? unaimed_part(share->aim, path->first_cosine, path->first_direction)
+static inline float part_beside_aimed(const ContinuedPath* path, const WantedLight* wanted) {
+    return wanted->aim != 0 && path->is_specular
+               ? unaimed_part(wanted->aim, path->first_cosine, path->first_direction)
                : 1.0f;
 }
 
 /// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
 /// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
 /// bundle's goes into the draw.
-static inline void add_met_light(const SceneView* scene, ContinuedPath* path, const RayShare* share,
+static inline void add_met_light(const SceneView* scene, ContinuedPath* path, const WantedLight* wanted,
                                  uint surfaces, float u, FoundReflection* found) {
-    const float scale = surfaces < share->max_edges ? path->way.near_scale : path->way.far_scale;
+    const float scale = surfaces < wanted->max_edges ? path->way.near_scale : path->way.far_scale;
     const PathRay* ray = &path->ray;
     const MetLight met = find_met_light(scene, ray, &path->hit);
     const float3 brought = scale * ray->throughput * met.radiance;
     if (path->of_bundle.is_one && ray->veils + 1 == surfaces) {
-        find_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
+        offer_reflection(found, &path->of_bundle.place, &path->of_bundle.ray, brought, met.of_others, u);
     } else if (ray->veils == surfaces) {
         path->light.direct += brought * met_weight(ray, &met);
     } else {
-        add_by_chance(path, brought * (met_weight(ray, &met) * part_beside_aimed(path, share)));
+        add_by_chance(path, brought * (met_weight(ray, &met) * part_beside_aimed(path, wanted)));
     }
 }
 
@@ -272,18 +272,18 @@ static inline void add_met_light(const SceneView* scene, ContinuedPath* path, co
 /// surface of a bundle's path the light goes into the draw, and the ray goes on to bring all that arrives
 /// there. Returns false where the path ends.
 static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* path,
-                                       const SurfaceBsdf* surface, uint parts, const RayShare* share,
+                                       const SurfaceBsdf* surface, uint parts, const WantedLight* wanted,
                                        uint surfaces, const PathNumbers* numbers, FoundReflection* found) {
     const float3 before = path->ray.throughput;
     const float survived = max_component(before) / path->first_weight;
     const bool begins_bundle_path = path->of_bundle.is_one && surfaces == 1;
     if (begins_bundle_path) {
-        find_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, share->max_edges - 2,
-                              path->way.near_scale * survived, numbers->light_seed, found);
+        offer_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, wanted->max_edges - 2,
+                               path->way.near_scale * survived, numbers->light_seed, found);
     } else {
-        const float part = is_mirror_or_glass(surface, false) ? part_beside_aimed(path, share) : 1.0f;
+        const float part = is_mirror_or_glass(surface, false) ? part_beside_aimed(path, wanted) : 1.0f;
         path->light.indirect += part * before *
-                                continued_sample(scene, &path->hit, surface, parts, share, &path->way,
+                                continued_sample(scene, &path->hit, surface, parts, wanted, &path->way,
                                                  surfaces, numbers->light_seed);
     }
     if (!scatter_ray(scene, &path->ray, &path->hit, surface, parts, numbers->lobe, numbers->direction)) {
@@ -298,7 +298,7 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
         ray->value = path->ray.throughput / max_component(before) * ray->pdf;
         path->of_bundle.own = path->ray.throughput / survived;
         path->ray.throughput = (float3)(survived);
-        path->shared_limit = share->shared_limit;
+        path->shared_limit = wanted->shared_limit;
         path->first_weight = survived;
     }
     return true;
@@ -306,9 +306,10 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
 
 /// Whether the bundle gets the Lambertian light of the surface, which the path met straight through veils.
 static inline bool is_found_behind_veils(const SceneView* scene, const ContinuedPath* path,
-                                         const SurfaceBsdf* surface, const RayShare* share, uint surfaces) {
+                                         const SurfaceBsdf* surface, const WantedLight* wanted,
+                                         uint surfaces) {
     const bool is_behind = path->ray.veils + 1 == surfaces && path->ray.veils <= NEARLIGHT_MAX_VEILS;
-    if (!share->finds_veiled || !is_behind || surface->mapped || is_black(surface->bsdf.diffuse) ||
+    if (!wanted->finds_veiled || !is_behind || surface->mapped || is_black(surface->bsdf.diffuse) ||
         (scene->materials[path->hit.material].flags & NEARLIGHT_MATERIAL_VEIL) != 0) {
         return false;
     }
@@ -320,24 +321,24 @@ static inline bool is_found_behind_veils(const SceneView* scene, const Continued
 }
 
 /// Follows the path over one surface to the next. Returns false where it ends.
-OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const RayShare* share, uint surfaces,
-                           uint4 keys, FoundReflection* found) {
+OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const WantedLight* wanted,
+                           uint surfaces, uint4 keys, FoundReflection* found) {
     const PathNumbers numbers = path_numbers(keys, surfaces);
     SurfaceBsdf surface;
     uint parts = BSDF_D | BSDF_S;
     if (surfaces == 1) {
-        surface = first_surface(scene, &path->hit, path->ray.direction, share,
-                                (float2)(numbers.model, numbers.way), &path->way);
+        surface = first_bsdf(scene, &path->hit, path->ray.direction, wanted,
+                             (float2)(numbers.model, numbers.way), &path->way);
         path->of_bundle = begin_bundle_path(scene, found, path->ray.from.x, &path->hit, &surface,
-                                            numbers.model, numbers.goes_on, &path->way);
+                                            numbers.model, numbers.of_bundle, &path->way);
         parts = path->way.parts;
         if (parts == 0 || path->way.max_edges < 2) {
             return false;
         }
     } else {
         surface = surface_bsdf(scene, &path->hit, path->ray.direction, BSDF_RADIANCE, numbers.model);
-        if (is_found_behind_veils(scene, path, &surface, share, surfaces)) {
-            if (!(surface.s_share > 0.0f)) {
+        if (is_found_behind_veils(scene, path, &surface, wanted, surfaces)) {
+            if (!(surface.s_probability > 0.0f)) {
                 return false;
             }
             surface.bsdf.diffuse = (float3)(0.0f);
@@ -345,25 +346,25 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Ra
         }
     }
     if (!survives(&path->ray, bsdf_albedo(scene, &surface), surfaces, path->first_weight, numbers.end) ||
-        !reflect_and_scatter(scene, path, &surface, parts, share, surfaces, &numbers, found)) {
+        !reflect_and_scatter(scene, path, &surface, parts, wanted, surfaces, &numbers, found)) {
         return false;
     }
     path->is_specular &= is_mirror_or_glass(&surface, path->ray.pdf == 0.0f) || path->ray.veils == surfaces;
     path->hit = trace_surface(scene, path->ray.origin, path->ray.direction, INFINITY);
-    add_met_light(scene, path, share, surfaces, numbers.draw, found);
+    add_met_light(scene, path, wanted, surfaces, numbers.draw, found);
     return path->hit.t >= 0.0f;
 }
 
 /// Whether a ray may bring anything over surfaces besides what VPLs bring.
-static inline bool brings_more(const SceneView* scene, const RayShare* share) {
-    return share->of_vpls != 1.0f || scene->info->has_specular || scene->info->has_maps ||
-           share->vpl_edges > share->max_edges;
+static inline bool brings_more(const SceneView* scene, const WantedLight* wanted) {
+    return wanted->of_vpls != 1.0f || scene->info->has_specular || scene->info->has_maps ||
+           wanted->vpl_edges > wanted->max_edges;
 }
 
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
 /// the bundle is left out.
 OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
-                                              const RayShare* share, uint4 keys, Continuation* first_way,
+                                              const WantedLight* wanted, uint4 keys, Continuation* first_way,
                                               FoundReflection* found) {
     ContinuedPath path;
     path.ray = ray;
@@ -374,18 +375,18 @@ OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ra
     path.first_direction = ray.direction;
     path.first_cosine = fmax(dot(ray.from.n, ray.direction), 0.0f);
     path.is_specular = 1;
-    path.way.max_edges = share->vpl_edges;
+    path.way.max_edges = wanted->vpl_edges;
     path.way.is_found = 0;
     path.way.excess = (float3)(0.0f);
-    path.shared_limit = share->shared_limit * path.first_weight;
+    path.shared_limit = wanted->shared_limit * path.first_weight;
     for (uint surfaces = 1; surfaces < path.way.max_edges; ++surfaces) {
-        if (!pass_surface(scene, &path, share, surfaces, keys, found)) {
+        if (!pass_surface(scene, &path, wanted, surfaces, keys, found)) {
             break;
         }
     }
     if (path.of_bundle.is_one && !is_black(path.light.indirect)) {
-        find_reflection(found, &path.of_bundle.place, &path.of_bundle.ray, path.light.indirect, 0.0f,
-                        to_unit_float(random_uint4(keys ^ 0xb0bd1eu).x));
+        offer_reflection(found, &path.of_bundle.place, &path.of_bundle.ray, path.light.indirect, 0.0f,
+                         to_unit_float(random_uint4(keys ^ 0xb0bd1eu).x));
         path.light.indirect = path.way.excess * path.of_bundle.own;
     }
     *first_way = path.way;

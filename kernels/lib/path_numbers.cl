@@ -11,8 +11,8 @@ typedef struct PathNumbers {
     float way;
     float lobe;  // within S
     float2 direction;
-    float end;            // whether the path ends by chance
-    float goes_on, draw;  // for the bundle's paths
+    float end;              // whether the path ends by chance
+    float of_bundle, draw;  // whether a path becomes the bundle's, and whether its light is drawn
     uint light_seed;
 } PathNumbers;
 
@@ -26,7 +26,7 @@ static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
     numbers.lobe = to_unit_float(more.y);
     numbers.direction = (float2)(to_unit_float(random.y), to_unit_float(random.z));
     numbers.end = to_unit_float(more.z);
-    numbers.goes_on = to_unit_float(of_bundle.x);
+    numbers.of_bundle = to_unit_float(of_bundle.x);
     numbers.draw = to_unit_float(of_bundle.y);
     numbers.light_seed = random.w;
     return numbers;

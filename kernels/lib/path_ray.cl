@@ -24,7 +24,7 @@ static inline LightReceiver light_receiver(float3 x, const SurfaceBsdf* surface,
     if ((parts & BSDF_S) && may_transmit(&surface->bsdf)) {
         return even_receiver(x, (float3)(0.0f));
     }
-    const float share = parts == BSDF_S ? 1.0f : parts == BSDF_D ? 0.0f : surface->s_share;
+    const float share = parts == BSDF_S ? 1.0f : parts == BSDF_D ? 0.0f : surface->s_probability;
     return glossy_receiver(x, surface->frame.n, surface->wo, share, lobe_roughness(&surface->bsdf));
 }
 
@@ -109,10 +109,12 @@ typedef struct PathRay {
     float3 origin, direction;
     float3 throughput;
     LightReceiver from;  // where it was scattered
-    float pdf;     // density of the direction, per steradian, times rays for each light sample; 0: a delta
-    float share;   // of the light straight from where it was scattered; rays beside it bring the rest
-    float passed;  // distance from there to the last veil
-    float index;   // refractive index of what it is in ÷ that of where its path began
+    float pdf;  // density of the direction, per steradian, times rays for each light sample; 0: a delta
+    // Of the light straight from where it was scattered, the ray brings this part, and rays beside it the
+    // rest.
+    float part_of_straight;
+    float passed;        // distance from there to the last veil
+    float index;         // refractive index of what it is in ÷ that of where its path began
     float bundle_ratio;  // rays of a bundle that look for the sky as this one does, for each light sample
     uint veils;          // veils that the ray has passed since it was scattered
 } PathRay;
@@ -131,7 +133,7 @@ static inline void begin_ray(PathRay* ray, const LightReceiver* from, float pdf)
     ray->origin = from->x;
     ray->from = *from;
     ray->pdf = pdf;
-    ray->share = 1.0f;
+    ray->part_of_straight = 1.0f;
     ray->passed = 0.0f;
     ray->veils = 0;
     ray->bundle_ratio = 0.0f;
@@ -176,7 +178,7 @@ OUTLINED MetLight find_met_light(const SceneView* scene, const PathRay* ray, con
 
 /// The part of the light met that the ray brings; others bring the rest.
 static inline float met_weight(const PathRay* ray, const MetLight* met) {
-    return shares_met_light(ray) ? ray->share * ray->pdf / (ray->pdf + met->of_others) : 1.0f;
+    return shares_met_light(ray) ? ray->part_of_straight * ray->pdf / (ray->pdf + met->of_others) : 1.0f;
 }
 
 /// Radiance that lights send straight along the ray, weighted against light samples of where it was
@@ -220,7 +222,7 @@ OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit
 static inline void share_lights(PathRay* ray, const LightQuota* quota) {
     if (ray->pdf > 0.0f) {
         ray->pdf *= (float)quota->rays / (float)quota->samples;
-        ray->share = 1.0f / (float)quota->rays;
+        ray->part_of_straight = 1.0f / (float)quota->rays;
         ray->bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     }
 }

@@ -90,19 +90,19 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
         const float3 y = offset_point(scene, hit.position, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
-    const RayShare share = {.of_vpls = 1.0f - weight,
-                            .max_edges = max_edges,
-                            .vpl_edges = max_edges,
-                            .is_shared = 0,
-                            .is_diffuse = 0,
-                            .finds_veiled = 0,
-                            .shared_limit = INFINITY,
-                            .aim = 0};
+    const WantedLight wanted = {.of_vpls = 1.0f - weight,
+                                .max_edges = max_edges,
+                                .vpl_edges = max_edges,
+                                .is_shared = 0,
+                                .is_diffuse = 0,
+                                .finds_veiled = 0,
+                                .shared_limit = INFINITY,
+                                .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
-    if (brings_more(scene, &share)) {
+    if (brings_more(scene, &wanted)) {
         const ReceivedLight beyond =
-            continued_light(scene, ray, hit, &share, random_uint4(keys), &way, &none);
+            continued_light(scene, ray, hit, &wanted, random_uint4(keys), &way, &none);
         irradiance += beyond.direct + beyond.indirect;
     }
     return irradiance;

@@ -39,7 +39,7 @@ typedef struct PathLimits {
     uint rays;           // rays that each receiver sends
     uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky
     uint sample;         // which of the receivers with the same random numbers it is
-    float shared_limit;  // RayShare.shared_limit
+    float shared_limit;  // WantedLight.shared_limit
     CausticAim aim;      // where the receiver sends rays besides
 } PathLimits;
 
@@ -94,9 +94,9 @@ static inline SharedLight sent_light(const SceneView* scene, const PathRay* ray,
     return shared_light(scene, hit, way, brought / (max_component(ray->throughput) * sent), of_vpls);
 }
 
-static inline void find_sky_along(const SceneView* scene, float3 x, float3 direction, uint4 keys,
-                                  FoundLight* sky) {
-    find_sky(scene, x, direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), sky);
+static inline void offer_sky_along(const SceneView* scene, float3 x, float3 direction, uint4 keys,
+                                   FoundLight* sky) {
+    offer_sky(scene, x, direction, to_unit_float(random_uint4(keys ^ 0x5c1u).x), sky);
 }
 
 /// The part of the rays that meet veils which look for light of places behind them. More would find more than
@@ -111,7 +111,7 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
     const SurfaceHit behind = trace_surface(finds->solids, at->x, ray->direction, INFINITY);
     if (behind.t < 0.0f) {
         if (finds->sky.is_wanted) {
-            find_sky_along(scene, at->x, ray->direction, keys, &finds->sky);
+            offer_sky_along(scene, at->x, ray->direction, keys, &finds->sky);
         }
         return (float3)(0.0f);
     }
@@ -125,23 +125,23 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
         return (float3)(0.0f);
     }
     const uint max_edges = limits->max_edges - veils;
-    const RayShare share = {.of_vpls = 0.0f,
-                            .max_edges = max_edges,
-                            .vpl_edges = max_edges,
-                            .is_shared = 1,
-                            .is_diffuse = 1,
-                            .finds_veiled = 0,
-                            .shared_limit = VEILED_PART * limits->shared_limit,
-                            .aim = 0};
+    const WantedLight wanted = {.of_vpls = 0.0f,
+                                .max_edges = max_edges,
+                                .vpl_edges = max_edges,
+                                .is_shared = 1,
+                                .is_diffuse = 1,
+                                .finds_veiled = 0,
+                                .shared_limit = VEILED_PART * limits->shared_limit,
+                                .aim = 0};
     Continuation way;
     FoundReflection none = no_reflection_found();
-    const ReceivedLight light = continued_light(scene, *ray, behind, &share, keys ^ 0x7e11u, &way, &none);
+    const ReceivedLight light = continued_light(scene, *ray, behind, &wanted, keys ^ 0x7e11u, &way, &none);
     if (!way.is_found) {
         return (float3)(0.0f);
     }
     SharedLight y = sent_light(scene, ray, &behind, &way, light.indirect / VEILED_PART, 0.0f);
     y.veils = (ushort)veils;
-    find_light(&finds->veiled, &y, to_unit_float(random_uint4(keys ^ 0xbe41u).x));
+    offer_light(&finds->veiled, &y, to_unit_float(random_uint4(keys ^ 0xbe41u).x));
     return veiling.part * way.excess / VEILED_PART;
 }
 
@@ -208,7 +208,7 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
     }
     if (hit.t < 0.0f) {
         if (finds->sky.is_wanted && limits->max_edges > 0) {
-            find_sky_along(scene, at->x, ray.direction, keys, &finds->sky);
+            offer_sky_along(scene, at->x, ray.direction, keys, &finds->sky);
         }
         return light;
     }
@@ -217,23 +217,23 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
         light.indirect = find_behind_veils(scene, at, limits, &ray, keys, finds);
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
-    const RayShare share = {.of_vpls = of_vpls / receiver_map_factor(at, ray.direction),
-                            .max_edges = limits->max_edges,
-                            .vpl_edges = limits->vpl_edges,
-                            .is_shared = finds->near.is_wanted && hit.t < limits->clamp_radius,
-                            .is_diffuse = 0,
-                            .finds_veiled = finds->veiled.is_wanted,
-                            .shared_limit = limits->shared_limit,
-                            .aim = &limits->aim};
-    if (brings_more(scene, &share)) {
+    const WantedLight wanted = {.of_vpls = of_vpls / receiver_map_factor(at, ray.direction),
+                                .max_edges = limits->max_edges,
+                                .vpl_edges = limits->vpl_edges,
+                                .is_shared = finds->near.is_wanted && hit.t < limits->clamp_radius,
+                                .is_diffuse = 0,
+                                .finds_veiled = finds->veiled.is_wanted,
+                                .shared_limit = limits->shared_limit,
+                                .aim = &limits->aim};
+    if (brings_more(scene, &wanted)) {
         Continuation way;
         const ReceivedLight beyond =
-            continued_light(scene, ray, hit, &share, keys, &way, &finds->reflections);
+            continued_light(scene, ray, hit, &wanted, keys, &way, &finds->reflections);
         light.direct += beyond.direct;
         if (way.is_found) {
-            const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, share.of_vpls);
-            find_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
-            light.indirect += fmax(1.0f - share.of_vpls, 0.0f) * way.excess;
+            const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, wanted.of_vpls);
+            offer_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
+            light.indirect += fmax(1.0f - wanted.of_vpls, 0.0f) * way.excess;
         } else {
             light.indirect += beyond.indirect;
         }

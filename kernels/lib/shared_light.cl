@@ -49,7 +49,7 @@ static inline FoundLight nothing_found(uint is_wanted) {
 
 /// Takes one more light into the draw; `u` is uniform in [0, 1). Returns whether it is the one to be kept so
 /// far.
-static inline bool find_light(FoundLight* found, const SharedLight* light, float u) {
+static inline bool offer_light(FoundLight* found, const SharedLight* light, float u) {
     if (!(light->weight > 0.0f && light->weight < INFINITY)) {
         return false;
     }

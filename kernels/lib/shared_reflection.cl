@@ -96,14 +96,14 @@ typedef struct ArrivingRay {
 
 /// Takes light that arrives at a glossy place into the draw. `light_pdf` is that of SharedReflection, and `u`
 /// is uniform in [0, 1).
-static inline void find_reflection(FoundReflection* found, const GlossyPlace* place, const ArrivingRay* ray,
-                                   float3 radiance, float light_pdf, float u) {
+static inline void offer_reflection(FoundReflection* found, const GlossyPlace* place, const ArrivingRay* ray,
+                                    float3 radiance, float light_pdf, float u) {
     const float of_rays = light_pdf < 0.0f ? 0.0f : ray->pdf + OTHER_LOBES;
     SharedLight light = place->light;
     light.radiance = store3(radiance);
     light.weight = max_component(radiance) * (max_component(ray->value) + OTHER_LOBES * place->albedo) /
                    (fabs(light_pdf) + of_rays);
-    if (find_light(&found->light, &light, u)) {
+    if (offer_light(&found->light, &light, u)) {
         found->surface = place->surface;
         found->surface.arriving = store3(ray->direction);
         found->surface.light_pdf = light_pdf;

@@ -27,7 +27,7 @@ static inline float3 sky_place(const SceneView* scene, float3 x, float3 directio
 
 /// Takes the sky that a ray from x met into the draw. All finds have the same weight, however dark the sky is
 /// where this ray met it: other receivers see another part of it behind the same place.
-static inline void find_sky(const SceneView* scene, float3 x, float3 direction, float u, FoundLight* sky) {
+static inline void offer_sky(const SceneView* scene, float3 x, float3 direction, float u, FoundLight* sky) {
     float3 normal;
     SharedLight light;
     light.position = store3(sky_place(scene, x, direction, &normal));
@@ -36,7 +36,7 @@ static inline void find_sky(const SceneView* scene, float3 x, float3 direction, 
     light.curve = light.veils = 0;
     light.radiance = store3((float3)(1.0f));
     light.shading = pack_direction(normal);
-    find_light(sky, &light, u);
+    offer_light(sky, &light, u);
 }
 
 #endif

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The folder in which PoCL keeps what it compiled.
 #pragma once
 
 #include <filesystem>

@@ -147,9 +147,9 @@ OUTLINED SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* h
     const float3 wo = world_to_frame(&s.frame, s.wo);
     const float diffuse = luminance(d_albedo(scene, &s.bsdf, wo.z));
     const float specular = luminance(s_albedo(&s.bsdf, wo));
-    s.s_share = specular > 0.0f ? 1.0f : 0.0f;
+    s.s_probability = specular > 0.0f ? 1.0f : 0.0f;
     if (diffuse > 0.0f && specular > 0.0f) {
-        s.s_share = clamp(specular / (diffuse + specular), 0.05f, 0.95f);
+        s.s_probability = clamp(specular / (diffuse + specular), 0.05f, 0.95f);
     }
     return s;
 }
@@ -224,18 +224,18 @@ OUTLINED float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 w
     const float3 local_wo = world_to_frame(&s->frame, s->wo);
     const float3 local_wi = world_to_frame(&s->frame, wi);
     const Bsdf* bsdf = &s->bsdf;
-    const float s_share = parts == BSDF_D ? 0.0f : (parts == BSDF_S ? 1.0f : s->s_share);
+    const float s_probability = parts == BSDF_D ? 0.0f : (parts == BSDF_S ? 1.0f : s->s_probability);
     float3 value = (float3)(0.0f);
     *pdf = 0.0f;
     if (parts & BSDF_S) {
         value = s_eval(bsdf, local_wo, local_wi, pdf);
-        *pdf *= s_share;
+        *pdf *= s_probability;
     }
     if ((parts & BSDF_D) && local_wo.z > 0.0f && local_wi.z > 0.0f && !is_black(bsdf->diffuse)) {
         const float cosine = local_wi.z * M_1_PI_F;
         value += bsdf->diffuse * (cosine * diffuse_transmission(scene, bsdf->curve, local_wo.z) *
                                   diffuse_transmission(scene, bsdf->curve, local_wi.z));
-        *pdf += (1.0f - s_share) * cosine;
+        *pdf += (1.0f - s_probability) * cosine;
     }
     const float factor = transport_factor(s, wi, local_wi.z < 0.0f ? transmission_eta(bsdf) : 1.0f);
     *pdf = factor > 0.0f ? *pdf : 0.0f;
@@ -264,21 +264,21 @@ static inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
 /// A direction drawn from the chosen parts. `u` and `v` are independent and uniform in [0, 1).
 static inline BsdfSample bsdf_sample(const SceneView* scene, const SurfaceBsdf* s, uint parts, float u,
                                      float2 v) {
-    const float s_share = parts == BSDF_D ? 0.0f : (parts == BSDF_S ? 1.0f : s->s_share);
+    const float s_probability = parts == BSDF_D ? 0.0f : (parts == BSDF_S ? 1.0f : s->s_probability);
     const float3 wo = world_to_frame(&s->frame, s->wo);
     BsdfSample sample = no_bsdf_sample();
     if (!(wo.z > 0.0f)) {
         return sample;
     }
-    if (u < s_share) {
-        sample = s_sample(&s->bsdf, wo, u / s_share, v);
+    if (u < s_probability) {
+        sample = s_sample(&s->bsdf, wo, u / s_probability, v);
     } else {
         sample.wi = square_to_cosine_hemisphere(v);
     }
     sample.wi = sample.is_straight ? -s->wo : frame_to_world(&s->frame, sample.wi);
     if (sample.is_delta) {
         sample.is_straight = sample.is_straight && !s->mapped;  // maps block shadow rays
-        sample.weight *= transport_factor(s, sample.wi, sample.eta) / s_share;
+        sample.weight *= transport_factor(s, sample.wi, sample.eta) / s_probability;
         return sample;
     }
     const float3 value = bsdf_eval(scene, s, sample.wi, parts, &sample.pdf);

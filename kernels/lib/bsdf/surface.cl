@@ -17,16 +17,16 @@
 
 typedef struct SurfaceBsdf {
     Bsdf bsdf;
-    Frame frame;       // shading frame in world space, n on the viewer's side; either handedness
-    float3 geometric;  // normal of the triangle on the side that the ray came from
-    float3 wo;         // unit vector back along the ray
-    uint mode;         // BSDF_RADIANCE, BSDF_FLUX or BSDF_CAMERA
-    uint unscaled;     // 1: radiance does not change with the index of what it is in, as under clear glass
-    float s_share;     // probability of S where D and S are sampled together
-    uint mapped;       // 0: the frame's n is the mesh's own; otherwise MAPPED or MAPPED_TURNED
-    float3 unmapped;   // the frame's n before the map
-    float tilt2;       // of the map: the squared α of its shadowing
-    float scale;       // 1 ÷ probability of what was chosen at the map
+    Frame frame;          // shading frame in world space, n on the viewer's side; either handedness
+    float3 geometric;     // normal of the triangle on the side that the ray came from
+    float3 wo;            // unit vector back along the ray
+    uint mode;            // BSDF_RADIANCE, BSDF_FLUX or BSDF_CAMERA
+    uint unscaled;        // 1: radiance does not change with the index of what it is in, as under clear glass
+    float s_probability;  // probability of S where D and S are sampled together
+    uint mapped;          // 0: the frame's n is the mesh's own; otherwise MAPPED or MAPPED_TURNED
+    float3 unmapped;      // the frame's n before the map
+    float tilt2;          // of the map: the squared α of its shadowing
+    float scale;          // 1 ÷ probability of what was chosen at the map
 } SurfaceBsdf;
 
 #define MAPPED 1u
@@ -332,7 +332,7 @@ static inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, 
     s.wo = -direction;
     s.mode = mode;
     s.unscaled = 0;
-    s.s_share = 0.0f;
+    s.s_probability = 0.0f;
     s.mapped = 0;
     s.unmapped = s.frame.n;
     s.tilt2 = 0.0f;
