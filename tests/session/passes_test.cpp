@@ -146,7 +146,8 @@ TEST_F(Passes, AllAimAtMirrorsIfTheFirstDoes) {
         set_camera(scene, {-1.5, 1, 0}, {0, 0, 0}, 60);
         Session session(device, scene);
         RenderSettings settings = test::few_vpls();
-        settings.view = {.range = 2.0f, .max_depth = 5};
+        settings.view = {.width = 24, .height = 16, .range = 2.0f, .max_depth = 5};
+        settings.gather.rays_per_pixel = 16;
         EXPECT_GT(expect_mean_of_passes(session, settings).aimed_rays, 0u);
     });
 }

@@ -208,7 +208,7 @@ kernel void probe(global float* out) {
         SharedLight light = nothing_found(1).light;
         light.weight = k == 0 ? 1.0f : 3.0f;
         light.radiance = store3(k == 0 ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 3.0f, 0.0f));
-        find_light(&found, &light, to_unit_float(random_uint4((uint4)(i, k, 3, 4)).x));
+        offer_light(&found, &light, to_unit_float(random_uint4((uint4)(i, k, 3, 4)).x));
     }
     const SharedLight kept = kept_light(&found);
     out[3 * i] = kept.radiance.x;
