@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/image/color.h"
 #include "viewer/channels.h"
-#include "viewer/srgb.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -37,7 +37,7 @@ class SrgbTable {
     SrgbTable() {
         for (std::size_t i = 0; i < codes_.size(); ++i) {
             const float linear = static_cast<float>(i) / static_cast<float>(codes_.size() - 1);
-            codes_[i] = to_byte(srgb_of_linear(linear));
+            codes_[i] = to_byte(core::linear_to_srgb(linear));
         }
     }
     [[nodiscard]] std::uint8_t code(float linear) const {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
+#include "host/image/color.h"
 #include "nearlight/error.h"
-#include "viewer/srgb.h"
 
 namespace nearlight::viewer {
 
@@ -13,7 +13,7 @@ void write_screenshot(const std::filesystem::path& file, const ScreenPixels& pix
     Image image{.width = pixels.width, .height = pixels.height, .channels = {"R", "G", "B"}};
     for (std::size_t i = 0; i < pixels.rgba.size(); ++i) {
         if (i % 4 != 3) {
-            image.values.push_back(linear_of_srgb(static_cast<float>(pixels.rgba[i]) / 255.0f));
+            image.values.push_back(core::srgb_to_linear(static_cast<float>(pixels.rgba[i]) / 255.0f));
         }
     }
     write_image(file, image);

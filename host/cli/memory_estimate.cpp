@@ -4,6 +4,7 @@
 #include <numeric>
 #include <span>
 
+#include "host/cl/devices/tunables.h"
 #include "host/session/plan.h"
 #include "host/session/splat_rows.h"
 #include "host/stages/splats.h"
@@ -23,9 +24,6 @@ std::uint64_t texture_bytes(const Scene& scene) {
                                return sum + std::span(image.words).size_bytes();
                            });
 }
-
-/// The receivers of a batch on a CPU (Tunables::batch_receivers). GPUs take more of their larger memory.
-constexpr std::size_t kBatchReceivers = std::size_t{1} << 18u;
 
 /// The bytes of a receiver: where it lies, the surface that the camera sees there, its light of three kinds,
 /// and what its rays find nearby.
@@ -50,8 +48,9 @@ std::uint64_t pixel_bytes(const SceneCamera& camera) {
 /// What a band of the picture takes on a device, with the default settings and camera paths that divide.
 std::uint64_t band_bytes(const SceneCamera& camera) {
     const GatherSettings settings;
+    const std::size_t batch_receivers = tunables_row(DeviceKind::cpu).values.batch_receivers;
     const RenderPlan plan =
-        make_plan(std::span(&kBatchReceivers, 1), {.width = static_cast<uint>(camera.width),
+        make_plan(std::span(&batch_receivers, 1), {.width = static_cast<uint>(camera.width),
                                                    .height = static_cast<uint>(camera.height),
                                                    .samples_per_pixel = settings.samples_per_pixel,
                                                    .branch_count = 2,

@@ -97,8 +97,8 @@ class Post {
     Stopwatch clock_;
     bool leaving_ = false;
     std::atomic<bool> has_lost_{false};
-    std::atomic<bool> has_failed_{
-        false};  ///< the thread has ended, because there was no memory for a message
+    /// The thread has ended, because there was no memory for a message.
+    std::atomic<bool> has_failed_{false};
     double max_silence_;
 
     std::mutex receiver_mutex_;

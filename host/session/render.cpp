@@ -34,10 +34,7 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool has_passes) {
 void render_once(Session& session, const RenderSettings& settings, uint samples, const RenderHooks& hooks,
                  RenderReport& report) {
     Prepared pass = prepare(session, with_samples(settings, samples), hooks.vpls, report);
-    RenderSettings decided = settings;
-    decided.gather.direct_samples_per_pixel =
-        budget_of(pass.view, pass.vpls, settings.gather).direct_samples_per_pixel;
-    pass.settings = with_samples(std::move(decided), samples);
+    scale_light_samples(settings, pass);
     hooks.start(report, pass.view, pass.vpls);
     gather(session, pass, hooks.rows, hooks.progress, report);
 }

@@ -180,8 +180,7 @@ Prepared begin_pass(Session& session, const RenderSettings& settings, uint numbe
                                          passes.choice, vpls);
     note_pass(pass, report);
     if (!passes.choice) {
-        // What the pilot chose is for a pass of all samples; one of fewer gets less in proportion.
-        pass.settings = pass_settings(settings, number, samples, choice_of(pass, settings));
+        scale_light_samples(settings, pass);
     }
     return pass;
 }

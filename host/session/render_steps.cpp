@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/base/stopwatch.h"
+#include "host/session/passes.h"
 #include "host/session/picture_window.h"
 
 namespace nearlight::core {
@@ -60,6 +61,15 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
                      : session.sample(pass.view, settings.sampling, settings.seed);
     pass.seconds = watch.seconds();
     return pass;
+}
+
+void scale_light_samples(const RenderSettings& whole, Prepared& pass) {
+    RenderSettings decided = whole;
+    decided.gather.direct_samples_per_pixel =
+        budget_of(pass.view, pass.vpls, whole.gather).direct_samples_per_pixel;
+    GatherSettings& gather = pass.settings.gather;
+    gather.direct_samples_per_pixel =
+        with_samples(std::move(decided), gather.samples_per_pixel).gather.direct_samples_per_pixel;
 }
 
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,

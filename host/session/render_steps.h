@@ -20,6 +20,9 @@ View look(Session& session, const RenderSettings& settings, RenderReport& report
 
 /// Looks at the scene and makes VPLs, with `vpls` unless that is empty. `settings` are those of the pass.
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls);
+/// Gives a pass its part of the light samples that the pilot chose for it, which are those of all samples of
+/// a pixel that `whole` has.
+void scale_light_samples(const RenderSettings& whole, Prepared& pass);
 /// Looks at the scene, makes VPLs, and notes them in the report as the beginning of a pass.
 Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
                  RenderReport& report);

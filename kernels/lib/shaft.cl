@@ -61,7 +61,7 @@ static inline void make_shaft(Shaft* shaft, float3 origin, const BeamBounds* bou
         shaft->by_high[axis] = by_high[axis];
         shaft->near[axis] = down ? WIDE_UPPER : 0;
         shaft->by_near[axis] = down ? by_low[axis] : by_high[axis];
-        shaft->by_far[axis] = (down ? by_high[axis] : by_low[axis]);
+        shaft->by_far[axis] = down ? by_high[axis] : by_low[axis];
     }
     if (shaft->straddles) {
         shaft->near[0] = shaft->near[1] = shaft->near[2] = 0;

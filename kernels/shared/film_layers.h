@@ -3,9 +3,7 @@
 // passes, the EXR files and the help text of --layers come from it; CONTRIBUTING.md says how to add a row.
 //
 // A row is LAYER(constant, name, channels, samples, passes, files, storage).
-//   constant   is what NEARLIGHT_LAYER_… and NEARLIGHT_SUM_… end in. Albedo, N, P and closerange are those of
-//              the first surface with a Lambertian part, behind mirrors and glass too, and 0 where a sample
-//              has no receiver; depth is that of the first surface of all.
+//   constant   is what NEARLIGHT_LAYER_… and NEARLIGHT_SUM_… end in.
 //   name       stands before the channel in files, as in "direct.R"; the beauty's channels have no prefix.
 //   channels   is one letter for each channel. A layer whose name is its only letter has no prefix.
 //   samples    says how the samples of a pixel become the layer:
@@ -26,6 +24,8 @@
 //              --layers names it.
 //   storage    says what numbers EXR files have unless --exr-precision asks for more: `half`, which are
 //              16-bit floats of 11 significant bits, or `full`, which are 32-bit floats.
+// Albedo, N, P and closerange are those of the first surface with a Lambertian part, behind mirrors and glass
+// too, and 0 where a sample has no receiver; depth is that of the first surface of all.
 // The order of the rows is the order of the channels in a picture and in its files.
 #ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
 #define NEARLIGHT_SHARED_FILM_LAYERS_H

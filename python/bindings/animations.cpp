@@ -45,11 +45,9 @@ void add_animations(py::module_& module) {
         "devices: Devices, or a choice as Devices() takes it.\n"
         "options: AnimationOptions; fields are theirs.\n"
         "load, session: LoadOptions and SessionOptions.\n\n"
-        "Where only the camera moves, scene and VPLs stay on the devices from one frame to the next, and "
-        "VPLs\n"
-        "hardly flicker. Frames have the bits that `nearlight render --frames` gives them, in whatever order "
-        "they "
-        "are made.")
+        "Where only the camera moves, scene and VPLs stay on the devices from one frame to the next, and\n"
+        "VPLs hardly flicker. Frames have the bits that `nearlight render --frames` gives them, in\n"
+        "whatever order they are made.")
         .def(py::init(&make_animation), py::arg("file"), py::arg("devices") = "auto",
              py::arg("options") = py::none(), py::kw_only(), py::arg("load") = py::none(),
              py::arg("session") = py::none(),

@@ -111,6 +111,16 @@ TEST_F(LibrarySession, WithoutLightsThereIsDirectLight) {
     EXPECT_NEAR(session().irradiance(point, up, none, {.paths = 0}).front().x, 1.0f, 1e-4f);
 }
 
+/// Light takes two edges from a lamp over a surface to the eye.
+TEST_F(LibrarySession, NothingIsLitAtADepthOfOne) {
+    const View view = session().look({.max_depth = 1});
+    const VplSet none = session().sample(view, {.vpl_count = 0});
+    const std::vector<Vec3> point{{0, 0, 0}};
+    const std::vector<Vec3> up{{0, 0, 1}};
+    const Vec3 light = session().irradiance(point, up, none, {.paths = 0}).front();
+    EXPECT_EQ(light.x, 0.0f);
+}
+
 TEST_F(LibrarySession, DecidesWhatTheSettingsLeaveOpen) {
     const View view = session().look({.height = 48});
     EXPECT_EQ(view.width(), 64);

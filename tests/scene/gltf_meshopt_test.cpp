@@ -149,6 +149,19 @@ TEST_F(GltfMeshopt, TheLaterNameMeansTheSame) {
     expect_rectangle(load_scene(files_.write("scene.gltf", text)));
 }
 
+/// A file of a few kilobytes must not fill the memory by naming the same bytes many times.
+TEST_F(GltfMeshopt, ManyViewsOfTheSameBytesAreAnError) {
+    const json view = gltf_.root["bufferViews"].back();
+    for (int i = 0; i < 100; ++i) {
+        gltf_.root["bufferViews"].push_back(view);
+    }
+    load_compressed();
+    for (int i = 0; i < 40000; ++i) {
+        gltf_.root["bufferViews"].push_back(view);
+    }
+    EXPECT_THAT(compressed_error(), HasSubstr("of the same compressed bytes"));
+}
+
 TEST_F(GltfMeshopt, BrokenViewsAreErrors) {
     const json whole = compression_of_positions();
     const auto error_with = [&](const char* key, const json& value) {

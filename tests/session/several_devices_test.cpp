@@ -176,6 +176,17 @@ TEST_F(SeveralDevices, AnotherLeadsWhereTheFirstHasNoRoomForTheScene) {
     EXPECT_EQ(both.report.shares.size(), 1u);
 }
 
+/// A camera that cannot be placed is the caller's fault.
+TEST_F(SeveralDevices, AllStayWhereTheCallerIsWrong) {
+    const Scene scene = lit_floor();
+    Session session(std::vector{&device(0), &device(1)}, scene);
+    SceneCamera camera = scene.camera;
+    camera.fov_x_degrees = 0;
+    EXPECT_EQ(test::error_of([&] { session.look(camera, {.width = 8, .height = 8}, 1); }).kind(),
+              ErrorKind::invalid_argument);
+    EXPECT_EQ(test::render_image(session, test::few_vpls()).report.shares.size(), 2u);
+}
+
 TEST_F(SeveralDevices, WhenAllFailItIsAnError) {
     DeviceEntry entry = device(0).entry();
     entry.max_allocation_bytes = 64;

@@ -20,8 +20,8 @@ struct CompressedView {
 };
 
 constexpr std::size_t kMaxStride = 256;
-/// Decoded bytes for a compressed one, at most: a block of 256 bytes takes no less than two bits. Fewer bytes
-/// are refused before memory is taken for what they cannot hold.
+/// Decoded bytes for a compressed one, at most: a block of 256 bytes takes no less than two bits. Views that
+/// promise more, each by itself or all together from the same bytes, are refused before memory is taken.
 constexpr std::size_t kMaxRatio = 1024;
 
 const char* extension_of(const tinygltf::BufferView& view) {
@@ -135,6 +135,10 @@ bool can_decode_meshopt() {
 }
 
 void decode_meshopt(GltfFile& file) {
+    std::size_t room = 0;  // for decoded bytes
+    for (const tinygltf::Buffer& buffer : file.model.buffers) {
+        room += kMaxRatio * buffer.data.size();
+    }
     for (std::size_t i = 0; i < file.model.bufferViews.size(); ++i) {
         tinygltf::BufferView& view = file.model.bufferViews[i];
         const char* const extension = extension_of(view);
@@ -143,6 +147,12 @@ void decode_meshopt(GltfFile& file) {
         }
         const std::string owner = "buffer view " + std::to_string(i);
         const CompressedView compressed = compressed_view(file, view, extension, owner);
+        if (compressed.count * compressed.stride > room) {
+            file.fail(owner +
+                      " is one of so many of the same compressed bytes that they would take more than " +
+                      std::to_string(kMaxRatio) + " times the size of the file");
+        }
+        room -= compressed.count * compressed.stride;
         tinygltf::Buffer buffer = decoded_buffer(file, compressed, owner);
         view.buffer = static_cast<int>(file.model.buffers.size());
         view.byteOffset = 0;

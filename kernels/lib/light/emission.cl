@@ -73,8 +73,8 @@ static inline float3 place_on_disk(float radius, float3 from, float2 u) {
 /// of the scene that are perpendicular to `from`.
 typedef struct AimShadow {
     float3 middle;
-    float min_squared,
-        max_squared;  // squares of the distances from the middle between which walks pass around it, m²
+    // Squares of the distances from the middle between which walks pass around it, m².
+    float min_squared, max_squared;
 } AimShadow;
 
 static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* target, float3 from) {

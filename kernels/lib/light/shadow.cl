@@ -45,8 +45,8 @@ static inline float3 straight_transmittance(const SceneView* scene, const Surfac
 OUTLINED float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
     const float along = dot(hit->shading, direction);
     float3 sum = (float3)(0.0f);
-    VeilPart
-        parts[NEARLIGHT_MAX_BSDF_NESTING + 2];  // each nested blend leaves one waiting, the innermost two
+    // Each nested blend leaves one part waiting, the innermost two.
+    VeilPart parts[NEARLIGHT_MAX_BSDF_NESTING + 2];
     parts[0] = (VeilPart){scene->materials + hit->material, 1.0f, 1.0f};
     uint count = along != 0.0f ? 1 : 0;
     while (count > 0 && count < NEARLIGHT_MAX_BSDF_NESTING + 2) {
