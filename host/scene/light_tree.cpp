@@ -189,17 +189,24 @@ uint most_leaves(uint levels) {
     return levels == 0 ? 1 : NEARLIGHT_LIGHT_TREE_WIDTH * most_leaves(levels - 1);
 }
 
-LightNode node_of(const LightRange& lights) {
-    LightNode node{};
-    node.low = lights.bounds.box.min;
-    node.high = lights.bounds.box.max;
-    node.power = static_cast<float>(lights.bounds.power);
-    node.axis = lights.bounds.cone.axis;
-    node.cos_beam = static_cast<float>(lights.bounds.cos_beam);
+/// The squared radius of the sphere around `center` that holds the box, with room for what kernels round.
+float squared_radius_around(Vec3 center, const Aabb& box) {
+    const Vec3 reach = max(box.max - center, center - box.min);
+    return 1.0001f * dot(reach, reach);
+}
+
+void set_child(LightNode& node, std::size_t i, const LightBounds& bounds) {
+    const Vec3 center = bounds.box.center();
+    const Vec3 axis = bounds.cone.axis;
+    for (int k = 0; k < 3; ++k) {
+        node.center[k][i] = static_cast<float>(light_axis_component(center, k));
+        node.axis[k][i] = static_cast<float>(light_axis_component(axis, k));
+    }
+    node.radius_squared[i] = squared_radius_around(center, bounds.box);
     // Rounding must not leave a light outside.
-    node.cos_spread =
-        static_cast<float>(std::cos(std::min(lights.bounds.cone.angle + 1e-4, std::numbers::pi)));
-    return node;
+    node.cos_spread[i] = static_cast<float>(std::cos(std::min(bounds.cone.angle + 1e-4, std::numbers::pi)));
+    node.cos_beam[i] = static_cast<float>(bounds.cos_beam);
+    node.power[i] = static_cast<float>(bounds.power);
 }
 
 class LightTreeBuilder {
@@ -208,14 +215,13 @@ class LightTreeBuilder {
         : lights_(lights), emitters_(emitters) {}
 
     std::vector<LightNode> build() {
-        const LightRange all = range(0, lights_.size());
-        nodes_.push_back(node_of(all));
-        add_below(0, all, 0, 0);
+        add_node(range(0, lights_.size()), 0, 0);
         return std::move(nodes_);
     }
 
   private:
-    void add_below(std::size_t node, const LightRange& lights, uint depth, uint way);
+    uint add_node(const LightRange& lights, uint depth, uint way);
+    uint add_leaf(const LightRange& light, uint way);
     [[nodiscard]] std::vector<LightRange> children_of(const LightRange& lights, uint depth);
     [[nodiscard]] LightRange range(std::size_t first, std::size_t end) const;
     [[nodiscard]] std::size_t best_part(const LightRange& lights);
@@ -330,23 +336,27 @@ std::vector<LightRange> LightTreeBuilder::children_of(const LightRange& lights, 
     return parts;
 }
 
-/// Adds all nodes below `node`, to which `way` leads through `depth` others.
-void LightTreeBuilder::add_below(std::size_t node, const LightRange& lights, uint depth, uint way) {
-    if (lights.count() == 1) {
-        nodes_[node].emitter = lights_[lights.first].emitter;
-        emitters_[lights_[lights.first].emitter].tree_way = way;
-        return;
-    }
+/// Adds a node of these lights, to which `way` leads through `depth` others, and all below it. Returns its
+/// index.
+uint LightTreeBuilder::add_node(const LightRange& lights, uint depth, uint way) {
+    const std::size_t index = nodes_.size();
+    nodes_.emplace_back();
     const std::vector<LightRange> children = children_of(lights, depth);
-    const std::size_t first = nodes_.size();
-    nodes_[node].first_child = static_cast<uint>(first);
-    nodes_[node].child_count = static_cast<uint>(children.size());
-    for (const LightRange& child : children) {
-        nodes_.push_back(node_of(child));
-    }
     for (uint i = 0; i < children.size(); ++i) {
-        add_below(first + i, children[i], depth + 1, way + i * most_leaves(depth));
+        const uint way_on = way + i * most_leaves(depth);
+        const uint child = children[i].count() == 1 ? add_leaf(children[i], way_on)
+                                                    : add_node(children[i], depth + 1, way_on);
+        set_child(nodes_[index], i, children[i].bounds);
+        nodes_[index].child[i] = child;
     }
+    return static_cast<uint>(index);
+}
+
+/// Notes the way to the only light of the range. Returns how a node refers to it.
+uint LightTreeBuilder::add_leaf(const LightRange& light, uint way) {
+    const uint emitter = lights_[light.first].emitter;
+    emitters_[emitter].tree_way = way;
+    return NEARLIGHT_LIGHT_LEAF_BIT | emitter;
 }
 
 }  // namespace

@@ -13,9 +13,8 @@ namespace nearlight::core {
 inline constexpr std::size_t kMinTreeLights = 2;
 
 /// Builds the tree of the entries [first, end) of the table of lights, which have a place, and writes
-/// Emitter::tree_way of each. The tree is empty if there are none. Node 0 is the root, and the children of a
-/// node, at most NEARLIGHT_LIGHT_TREE_WIDTH, stand one behind the other. No leaf is deeper than
-/// NEARLIGHT_MAX_LIGHT_TREE_DEPTH.
+/// Emitter::tree_way of each. The tree is empty if there are none. No light is below more than
+/// NEARLIGHT_MAX_LIGHT_TREE_DEPTH nodes.
 std::vector<LightNode> build_light_tree(const Scene& scene, std::vector<Emitter>& emitters, uint first,
                                         uint end);
 

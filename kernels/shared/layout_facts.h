@@ -47,7 +47,7 @@
     OFFSET(Emitter, triangle_count)                 \
     SIZE(LightNode)                                 \
     OFFSET(LightNode, cos_spread)                   \
-    OFFSET(LightNode, emitter)                      \
+    OFFSET(LightNode, child)                        \
     SIZE(Environment)                               \
     OFFSET(Environment, scene_center)               \
     OFFSET(Environment, sun_radiance)               \

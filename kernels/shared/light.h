@@ -56,22 +56,24 @@ typedef struct Emitter {
 /// lights.
 #define NEARLIGHT_MAX_EXACT_LIGHTS 16u
 
-/// A node of the tree of lights: the bounds of all lights below it. Its children stand one behind the other.
-typedef struct LightNode {
-    Vec3 low;
-    float power;  // π times the luminance of the greatest intensity, W; for a triangle, the luminance of its
-                  // flux
-    Vec3 high;
-    float cos_spread;  // all lights face within this angle of the axis
-    Vec3 axis;
-    uint first_child;
-    uint child_count;  // 0: a leaf
-    uint emitter;      // leaf: index into the table of lights
-    float cos_beam;    // none shines farther than this angle from where it faces
-    uint pad0;
-} LightNode;
 #define NEARLIGHT_LIGHT_TREE_WIDTH 8u       // max children of a node
 #define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 10u  // digits of Emitter.tree_way
+/// Marks a child that is one light: the other bits are its index in the table of lights.
+#define NEARLIGHT_LIGHT_LEAF_BIT 0x80000000u
+
+/// A node of the tree of lights. For each of its children it holds the bounds of all lights below, bound by
+/// bound, so that a receiver weighs all children at once. Node 0 is the root. Children that do not exist
+/// stand behind those that do, and have no power.
+typedef struct LightNode {
+    float center[3][NEARLIGHT_LIGHT_TREE_WIDTH];       // of a sphere around the lights: x, y, z
+    float radius_squared[NEARLIGHT_LIGHT_TREE_WIDTH];  // of that sphere, m²
+    float axis[3][NEARLIGHT_LIGHT_TREE_WIDTH];         // about where the lights face: x, y, z
+    float cos_spread[NEARLIGHT_LIGHT_TREE_WIDTH];      // all of them face within this angle of the axis
+    float cos_beam[NEARLIGHT_LIGHT_TREE_WIDTH];  // none shines farther than this angle from where it faces
+    float power[NEARLIGHT_LIGHT_TREE_WIDTH];     // π times the luminance of the greatest intensity, W;
+                                                 // of a triangle, the luminance of its flux
+    uint child[NEARLIGHT_LIGHT_TREE_WIDTH];      // index of a node, or of a light with the leaf bit
+} LightNode;
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the
 /// light. A constant environment has a single pixel. The pixels are float4 (RGB radiance) and are importance
@@ -96,7 +98,7 @@ typedef struct Environment {
 
 #ifdef __cplusplus
 NEARLIGHT_CHECK_SHARED(Emitter, 112);
-NEARLIGHT_CHECK_SHARED(LightNode, 64);
+NEARLIGHT_CHECK_SHARED(LightNode, 352);
 NEARLIGHT_CHECK_SHARED(Environment, 108);
 }  // namespace nearlight::core
 #endif
