@@ -327,7 +327,7 @@ TEST_F(BadInputOnDevice, InterruptBeforeTheFirstRowsKeepsTheOldPicture) {
 TEST_F(BadInputOnDevice, InterruptSavesWhatIsThere) {
     const ProgramResult result =
         run_interrupted("render " + quoted(good_scene()) + " -o " + quoted(picture()) +
-                            " --size 1024x1024 --spp 1024 --vpls 1000 --quiet",
+                            " --size 1024x1024 --spp 128 --vpls 1000 --quiet",
                         4, [&](const ProgramResult&) { return std::filesystem::exists(picture()); });
     EXPECT_EQ(result.exit_code, 130) << result.errors;
     EXPECT_TRUE(file_text(picture()).starts_with("\x89PNG"));
