@@ -22,6 +22,13 @@ uint strata_of_pixel(uint strata, uint interleave) {
     return std::max(strata / (interleave * interleave), 1u);
 }
 
+/// The number of the stratum that is asked in turn `turn` of `turns`: in the first half of the turns the odd
+/// ones, then the even ones. So both halves of a pixel's samples ask a half of the set that lies spread over
+/// it, and how far apart their light lies tells the error of the whole set.
+uint place_in_turn(uint turn, uint turns) {
+    return turn < turns / 2 ? 2 * turn + 1 : 2 * (turn - turns / 2);
+}
+
 /// The number of a pixel in a square of `side` x `side` pixels, in the order of a Bayer matrix, which numbers
 /// pixels that are far apart one after the other.
 uint bayer_number(uint x, uint y, uint side) {
@@ -93,15 +100,17 @@ std::vector<CameraBatch> RenderPlan::batches(uint index) const {
 std::vector<uint> RenderPlan::strata_of_bundles(const CameraBatch& batch, uint seed) const {
     const uint first = Pcg32(seed, kStrataStream).next() % strata;
     const uint own_strata = strata_of_pixel(strata, interleave);
+    const uint turns = std::min(own_strata, samples_per_pixel);
     const uint across = interleave > 1 ? tile_columns / bundle_columns : 1;
     std::vector<uint> result;
     for (uint i = 0; i < across * interleave; ++i) {
         const uint pixel = bayer_number(i % across % interleave, i / across, interleave);
         for (uint sample = 0; sample < batch.sample_count; sample += bundle_samples) {
             const std::uint64_t done = std::uint64_t{batch.first_sample} + sample;
-            const auto turn = static_cast<uint>(done * own_strata / samples_per_pixel);
+            const auto turn = static_cast<uint>(done * turns / samples_per_pixel);
+            const uint own = place_in_turn(turn, turns) * own_strata / turns;
             result.insert(result.end(), branch_count,
-                          (first + pixel + turn * interleave * interleave) % strata);
+                          (first + pixel + own * interleave * interleave) % strata);
         }
     }
     return result;

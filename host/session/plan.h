@@ -39,9 +39,10 @@ struct RenderPlan {
     /// The batches of band `index`, in the order to render them.
     [[nodiscard]] std::vector<CameraBatch> batches(uint index) const;
     /// The strata of the first bundles of a batch, which repeat after these (VplStrata). A pixel's samples
-    /// take one stratum after another, in runs of equal length if the number of samples allows it; `seed`
-    /// decides the first of them. In an interleaved picture, each pixel of a square of interleave x
-    /// interleave has strata of its own if there are enough.
+    /// take turns with the strata, in runs of equal length if the number of samples allows it, so that the
+    /// strata of the first half of the samples lie spread over the set, as do those of the second; `seed`
+    /// decides which are which. In an interleaved picture, each pixel of a square of interleave x interleave
+    /// has strata of its own if there are enough.
     [[nodiscard]] std::vector<uint> strata_of_bundles(const CameraBatch& batch, uint seed) const;
     /// The maximum number of packets in a batch.
     [[nodiscard]] std::size_t max_packets() const;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -135,6 +137,31 @@ TEST_F(PlanTest, SamplesShareStrataEvenly) {
                     << samples << " samples, " << strata << " strata";
                 EXPECT_EQ(plan.bundle_samples * plan.bundle_columns * plan.bundle_rows,
                           uint{NEARLIGHT_BUNDLE_PACKETS});
+            }
+        }
+    });
+}
+
+/// The strata that the first half of a pixel's samples ask about lie at equal distances from one another,
+/// whatever the first of them is.
+TEST_F(PlanTest, HalfOfTheSamplesAsksStrataThatLieSpread) {
+    on_each_device([](Device& device) {
+        for (const auto& [samples, strata, distance] :
+             {std::tuple{16u, 16u, 2u}, {64u, 16u, 2u}, {64u, 64u, 2u}, {4u, 16u, 8u}, {6u, 24u, 8u}}) {
+            for (const uint seed : {1u, 2u, 3u}) {
+                const RenderPlan plan =
+                    make_plan(std::vector{receivers_per_batch(device)}, {640, 480, samples, 1, strata});
+                std::vector<uint> asked;
+                for (const CameraBatch& batch : plan.batches(0)) {
+                    std::ranges::copy(plan.strata_of_bundles(batch, seed), std::back_inserter(asked));
+                }
+                asked.resize(asked.size() / 2);
+                const std::set<uint> different(asked.begin(), asked.end());
+                EXPECT_EQ(different.size(), strata / distance)
+                    << samples << " samples, " << strata << " strata";
+                for (const uint stratum : different) {
+                    EXPECT_EQ(stratum % distance, *different.begin() % distance) << samples << " samples";
+                }
             }
         }
     });
