@@ -2,8 +2,11 @@
 // Small launches (small_launches.h) of the stages that follow light.
 #include <numeric>
 
+#include "host/bvh/bvh.h"
+#include "host/reference/test_rooms.h"
 #include "host/scene/camera.h"
 #include "host/stages/camera_pass.h"
+#include "host/stages/caustic_aims.h"
 #include "host/stages/close_range.h"
 #include "host/stages/film.h"
 #include "host/stages/first_surfaces.h"
@@ -96,6 +99,32 @@ TEST_F(SmallLaunchesTest, LightWalks) {
         return numbers_of(LightTracer(device).run(
             scene.buffers, region, KeepDeposits::all,
             {.walk_count = 24, .bounce_count = 2, .min_survival = 0.6f, .max_survival = 0.6f, .seed = 3}));
+    });
+}
+
+/// Where walks over a mirror land, and what receivers on the floor gain by aiming at it.
+TEST_F(SmallLaunchesTest, LightOverAMirror) {
+    expect_same_of_both_trees([](Device& device) {
+        const Scene scene = make_mirror_corner().scene;
+        DeviceScene on_device = upload_scene(device, scene, build_scene_bvh(scene));
+        const std::vector<CausticLanding> landings = CausticWalks(device).run(on_device, 0, 256, 1);
+        const CausticCells cells = sort_into_cells(landings, on_device.host_info.extent);
+        on_device.caustic_aims.table = cells.table;
+        on_device.caustic_aims.cells = Buffer<CausticCell>(device, cells.entries);
+        on_device.caustic_aims.targets = Buffer<Vec3>(device, cells.targets);
+        const std::vector<ReceiverPacket> packets =
+            test::pack_receivers({{{0.3f, 1e-4f, 0}, {0, 1, 0}}, {{-0.2f, 1e-4f, 0.1f}, {0, 1, 0}}});
+        const CausticErrors errors =
+            ReceiverPaths(device).caustic_errors({on_device,
+                                                  Buffer<ReceiverPacket>(device, packets),
+                                                  packets.size(),
+                                                  {.rays = 2, .aimed_rays = 2, .max_edges = 4, .seed = 5}});
+        Numbers numbers(errors.aimed);
+        numbers.insert(numbers.end(), errors.unaimed.begin(), errors.unaimed.end());
+        for (const CausticLanding& landing : landings) {
+            numbers.insert(numbers.end(), {landing.place.x, landing.place.z, landing.target.y});
+        }
+        return numbers;
     });
 }
 
