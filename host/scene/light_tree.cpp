@@ -356,7 +356,7 @@ uint LightTreeBuilder::add_node(const LightRange& lights, uint depth, uint way) 
 uint LightTreeBuilder::add_leaf(const LightRange& light, uint way) {
     const uint emitter = lights_[light.first].emitter;
     emitters_[emitter].tree_way = way;
-    return NEARLIGHT_LIGHT_LEAF_BIT | emitter;
+    return NEARLIGHT_LEAF_BIT | emitter;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ uint strata_of_pixel(uint strata, uint interleave) {
 /// The number of the stratum that is asked in turn `turn` of `turns`: in the first half of the turns the odd
 /// ones, then the even ones. So both halves of a pixel's samples ask a half of the set that lies spread over
 /// it, and how far apart their light lies tells the error of the whole set.
-uint place_in_turn(uint turn, uint turns) {
+uint stratum_in_turn(uint turn, uint turns) {
     return turn < turns / 2 ? 2 * turn + 1 : 2 * (turn - turns / 2);
 }
 
@@ -108,7 +108,7 @@ std::vector<uint> RenderPlan::strata_of_bundles(const CameraBatch& batch, uint s
         for (uint sample = 0; sample < batch.sample_count; sample += bundle_samples) {
             const std::uint64_t done = std::uint64_t{batch.first_sample} + sample;
             const auto turn = static_cast<uint>(done * turns / samples_per_pixel);
-            const uint own = place_in_turn(turn, turns) * own_strata / turns;
+            const uint own = stratum_in_turn(turn, turns) * own_strata / turns;
             result.insert(result.end(), branch_count,
                           (first + pixel + own * interleave * interleave) % strata);
         }

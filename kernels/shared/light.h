@@ -58,8 +58,6 @@ typedef struct Emitter {
 
 #define NEARLIGHT_LIGHT_TREE_WIDTH 8u       // max children of a node
 #define NEARLIGHT_MAX_LIGHT_TREE_DEPTH 10u  // digits of Emitter.tree_way
-/// Marks a child that is one light: the other bits are its index in the table of lights.
-#define NEARLIGHT_LIGHT_LEAF_BIT 0x80000000u
 
 /// A node of the tree of lights. For each of its children it holds the bounds of all lights below, bound by
 /// bound, so that a receiver weighs all children at once. Node 0 is the root. Children that do not exist
@@ -72,7 +70,8 @@ typedef struct LightNode {
     float cos_beam[NEARLIGHT_LIGHT_TREE_WIDTH];  // none shines farther than this angle from where it faces
     float power[NEARLIGHT_LIGHT_TREE_WIDTH];     // π times the luminance of the greatest intensity, W;
                                                  // of a triangle, the luminance of its flux
-    uint child[NEARLIGHT_LIGHT_TREE_WIDTH];      // index of a node, or of a light with the leaf bit
+    uint child[NEARLIGHT_LIGHT_TREE_WIDTH];      // index of a node, or of a light in the table, with
+                                                 // NEARLIGHT_LEAF_BIT
 } LightNode;
 
 /// A latitude-longitude environment map, whose pixel rows run from +Y (top) to −Y in the local frame of the

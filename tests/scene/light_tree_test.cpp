@@ -114,7 +114,7 @@ void expect_good_tree(const Scene& scene) {
         uint way = emitter.tree_way;
         uint node = 0;
         uint depth = 0;
-        for (; !(node & NEARLIGHT_LIGHT_LEAF_BIT); ++depth) {
+        for (; !(node & NEARLIGHT_LEAF_BIT); ++depth) {
             const LightNode& at = table.light_tree[node];
             const uint next = way % NEARLIGHT_LIGHT_TREE_WIDTH;
             ASSERT_LT(next, expect_children_in_front(at));
@@ -125,13 +125,13 @@ void expect_good_tree(const Scene& scene) {
                 expect_triangles_inside(scene, emitter, bounds);
             }
             node = at.child[next];
-            if (!(node & NEARLIGHT_LIGHT_LEAF_BIT)) {
+            if (!(node & NEARLIGHT_LEAF_BIT)) {
                 ASSERT_NEAR(at.power[next], power_below(table.light_tree[node]), 1e-4 * at.power[next]);
             }
             way /= NEARLIGHT_LIGHT_TREE_WIDTH;
         }
         ASSERT_LE(depth, NEARLIGHT_MAX_LIGHT_TREE_DEPTH);
-        ASSERT_EQ(node & ~NEARLIGHT_LIGHT_LEAF_BIT, index);
+        ASSERT_EQ(node & ~NEARLIGHT_LEAF_BIT, index);
     }
     double power = 0;
     for (const Emitter& emitter : in_tree) {

@@ -123,7 +123,7 @@ static inline uint choose_in_light_tree(const SceneView* scene, const LightRecei
                                         float* probability) {
     uint node = 0;
     *probability = 1.0f;
-    while (!(node & NEARLIGHT_LIGHT_LEAF_BIT)) {
+    while (!(node & NEARLIGHT_LEAF_BIT)) {
         const LightChildren children = weigh_children(scene, node, at);
         if (!(children.sum > 0.0f)) {
             return ~0u;
@@ -145,7 +145,7 @@ static inline uint choose_in_light_tree(const SceneView* scene, const LightRecei
         *probability *= children.importance[chosen] / children.sum;
         node = scene->light_nodes[node].child[chosen];
     }
-    return node & ~NEARLIGHT_LIGHT_LEAF_BIT;
+    return node & ~NEARLIGHT_LEAF_BIT;
 }
 
 /// The probability with which choose_in_light_tree() picks the light at `index` of the table.
@@ -153,7 +153,7 @@ static inline float light_tree_probability(const SceneView* scene, uint index, c
     uint way = scene->emitters[index].tree_way;
     uint node = 0;
     float probability = 1.0f;
-    while (!(node & NEARLIGHT_LIGHT_LEAF_BIT)) {
+    while (!(node & NEARLIGHT_LEAF_BIT)) {
         const LightChildren children = weigh_children(scene, node, at);
         const uint next = way % NEARLIGHT_LIGHT_TREE_WIDTH;
         if (!(children.importance[next] > 0.0f)) {
