@@ -7,8 +7,68 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <string>
 
 namespace nearlight::core {
+namespace {
+
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+/// The number that stands behind `name` in a file of names and numbers, e.g. "MemAvailable:   1234 kB".
+std::optional<std::size_t> number_after(const std::filesystem::path& file, const std::string& name) {
+    std::ifstream lines(file);
+    for (std::string word; lines >> word;) {
+        std::size_t number = 0;
+        if (word == name && lines >> number) {
+            return number;
+        }
+        lines.clear();
+    }
+    return std::nullopt;
+}
+
+/// The only number of a file. None if the file is missing or says "max", which means that there is no limit.
+std::optional<std::size_t> number_in(const std::filesystem::path& file) {
+    std::ifstream text(file);
+    std::size_t number = 0;
+    return text >> number ? std::optional(number) : std::nullopt;
+}
+
+/// The control group of this process, as a path below the root of all groups: "0::/…" in /proc/self/cgroup.
+std::filesystem::path group_of_process(const std::filesystem::path& proc) {
+    std::ifstream lines(proc / "self" / "cgroup");
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("0::/")) {
+            return line.substr(4);
+        }
+    }
+    return {};
+}
+
+/// What the limit of one group leaves. Pages of files count as used there, but the system takes them back
+/// when memory is short.
+std::size_t free_in_group(const std::filesystem::path& group) {
+    const std::optional<std::size_t> limit = number_in(group / "memory.max");
+    const std::optional<std::size_t> used = number_in(group / "memory.current");
+    if (!limit || !used) {
+        return kUnlimited;
+    }
+    const std::size_t files = number_after(group / "memory.stat", "inactive_file").value_or(0) +
+                              number_after(group / "memory.stat", "active_file").value_or(0);
+    return *limit - std::min(*limit, *used - std::min(*used, files));
+}
+
+/// What the limits of a group and of all groups around it leave.
+std::size_t free_in_groups(const std::filesystem::path& groups, std::filesystem::path group) {
+    std::size_t least = free_in_group(groups);
+    for (; !group.empty(); group = group.parent_path()) {
+        least = std::min(least, free_in_group(groups / group));
+    }
+    return least;
+}
+
+}  // namespace
 
 std::size_t peak_host_bytes() {
     rusage usage{};  // Linux counts KiB
@@ -16,7 +76,6 @@ std::size_t peak_host_bytes() {
 }
 
 std::size_t free_address_space() {
-    constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
         return kUnlimited;
@@ -28,6 +87,15 @@ std::size_t free_address_space() {
     }
     const std::size_t used = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     return limit.rlim_cur - std::min<std::size_t>(used, limit.rlim_cur);
+}
+
+std::size_t free_memory(const std::filesystem::path& proc, const std::filesystem::path& groups) {
+    const std::optional<std::size_t> available = number_after(proc / "meminfo", "MemAvailable:");
+    if (!available) {
+        return kUnlimited;
+    }
+    const std::size_t swap = number_after(proc / "meminfo", "SwapFree:").value_or(0);
+    return std::min(*available * 1024, free_in_groups(groups, group_of_process(proc))) + swap * 1024;
 }
 
 }  // namespace nearlight::core

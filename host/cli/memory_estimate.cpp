@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/memory_estimate.h"
 
-#include <numeric>
 #include <span>
 
 #include "host/cl/devices/tunables.h"
 #include "host/session/plan.h"
+#include "host/session/scene_memory.h"
 #include "host/session/splat_rows.h"
 #include "host/stages/splats.h"
 #include "kernels/shared/camera_pass.h"
@@ -14,16 +14,6 @@
 
 namespace nearlight::core {
 namespace {
-
-/// Vertices have colours and second coordinates only if textures are looked up there.
-std::uint64_t texture_bytes(const Scene& scene) {
-    const std::uint64_t of_vertices =
-        std::span(scene.vertex_colors).size_bytes() + std::span(scene.second_uvs).size_bytes();
-    return std::accumulate(scene.images.begin(), scene.images.end(), of_vertices,
-                           [](std::uint64_t sum, const TextureImage& image) {
-                               return sum + std::span(image.words).size_bytes();
-                           });
-}
 
 /// The bytes of a receiver: where it lies, the surface that the camera sees there, its light of three kinds,
 /// and what its rays find nearby.
@@ -63,28 +53,19 @@ std::uint64_t band_bytes(const SceneCamera& camera) {
 }  // namespace
 
 MemoryEstimate estimate_memory(const Scene& scene) {
-    constexpr std::uint64_t kTrianglesPerLeaf = 2;
-    constexpr std::uint64_t kTrianglesPerCut = 20;  // one in so many is cut and is in two leaves
-    const std::uint64_t triangles = scene.triangles.size();
+    const SceneMemory memory = estimate_scene_memory(scene);
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
-    const std::uint64_t geometry = scene.vertices.size() * sizeof(Vertex) + triangles * sizeof(Triangle);
-    const std::uint64_t entries = triangles + triangles / kTrianglesPerCut;
-    const std::uint64_t trees =
-        entries * (sizeof(BvhTriangle) + sizeof(uint)) + entries / kTrianglesPerLeaf * sizeof(BvhNode);
-    const std::uint64_t textures = texture_bytes(scene);
-    const std::uint64_t environment = scene.environment.radiance.size();
     MemoryEstimate estimate;
-    estimate.host = {{"geometry", geometry},
-                     {"trees", trees},
-                     {"textures", textures},
-                     {"environment", environment * sizeof(Vec3)},
+    estimate.host = {{"geometry", memory.geometry},
+                     {"trees", memory.trees},
+                     {"textures", memory.textures},
+                     {"environment", memory.environment_on_host},
                      {"picture", pixels * NEARLIGHT_LAYER_CHANNELS * sizeof(float)}};
-    // On the device, the environment has RGBA pixels and a table for sampling them.
-    estimate.device = {{"geometry", geometry},
-                       {"trees", trees},
-                       {"textures", textures},
-                       {"environment", environment * 5 * sizeof(float)},
+    estimate.device = {{"geometry", memory.geometry},
+                       {"trees", memory.trees},
+                       {"textures", memory.textures},
+                       {"environment", memory.environment_on_device},
                        {"picture", band_bytes(scene.camera)}};
     return estimate;
 }

@@ -18,8 +18,8 @@ struct MemoryEstimate {
     Parts device;
 };
 /// Estimates the memory of a render at the scene's own size with the default settings: the whole picture on
-/// the host, and one band of it at a time on a device, which is taken for a CPU. The estimate assumes two
-/// triangles per leaf of the trees. VPLs and what few scenes need (veils, shared reflections) are left out.
+/// the host, and one band of it at a time on a device, which is taken for a CPU. VPLs and what few scenes
+/// need (veils, shared reflections) are left out.
 MemoryEstimate estimate_memory(const Scene& scene);
 
 }  // namespace nearlight::core

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/device_pool.h"
 
+#include <algorithm>
+
 #include "host/base/message.h"
 #include "host/stages/caustic_aims.h"
 
@@ -24,6 +26,11 @@ DevicePool::DevicePool(std::span<Device* const> devices, GatherKernel kernel) : 
         }
     }
     on_leader([](const PoolDevice&) {});  // its stages begin to compile
+}
+
+std::size_t DevicePool::cpu_count() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(devices_, [](const auto& device) { return device->device().is_cpu(); }));
 }
 
 TreeShapes DevicePool::tree_shapes() const {

@@ -37,6 +37,8 @@ class DevicePool {
     DevicePool(std::span<Device* const> devices, GatherKernel kernel);
 
     [[nodiscard]] std::size_t size() const { return devices_.size(); }
+    /// The number of devices whose memory is the machine's own.
+    [[nodiscard]] std::size_t cpu_count() const;
     [[nodiscard]] std::span<const std::unique_ptr<PoolDevice>> devices() const { return devices_; }
     [[nodiscard]] PoolDevice& leader() const { return *devices_.front(); }
 

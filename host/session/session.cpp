@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/session.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "host/base/memory.h"
 #include "host/base/message.h"
 #include "host/base/random.h"
 #include "host/base/receivers.h"
@@ -16,6 +18,7 @@
 #include "host/session/openings.h"
 #include "host/session/picture_window.h"
 #include "host/session/ray_budget.h"
+#include "host/session/scene_memory.h"
 #include "host/session/sky_part.h"
 #include "host/session/vpl_file.h"
 
@@ -89,6 +92,7 @@ RayBudget budget_of(const View& view, const VplSet& vpls, const GatherSettings& 
 Session::Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options)
     : scene_(scene), pool_(devices, options.gather_kernel) {
     const Stopwatch total;
+    check_scene_memory(scene, pool_.cpu_count(), std::min(free_memory(), free_address_space()));
     Stopwatch watch;
     const ShapedBvh tree =
         find_or_build_scene_tree(scene, {.quality = options.bvh_quality}, pool_.tree_shapes(),

@@ -55,7 +55,8 @@ struct VplPart {
 class Session {
   public:
     /// Keeps references to `devices` (one or more) and `scene`, which must outlive the session. Of the scene
-    /// only the camera may change meanwhile, which look() asks for.
+    /// only the camera may change meanwhile, which look() asks for. Throws Error(ErrorKind::out_of_memory)
+    /// before it builds the tree if there is not enough memory, see host/session/scene_memory.h.
     Session(std::span<Device* const> devices, const Scene& scene, const SessionOptions& options = {});
     Session(Device& device, const Scene& scene, const SessionOptions& options = {});
     Session(std::span<Device* const> devices, const Scene&& scene,

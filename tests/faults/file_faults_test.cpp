@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <regex>
 #include <vector>
 
@@ -146,6 +147,30 @@ TEST_F(FileFaults, LittleMemory) {
             expect_error(result, {4, 6}, "");
         }
     }
+}
+
+/// A mesh of `count` triangles that are all the same.
+void write_mesh(const fs::path& file, std::size_t count) {
+    std::ofstream out(file, std::ios::binary);
+    out << "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        << "property float z\nelement face " << count
+        << "\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::array<float, 9> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    out.write(reinterpret_cast<const char*>(corners.data()), sizeof(corners));
+    std::string face(13, '\0');
+    face[0] = 3;
+    face[5] = 1;
+    face[9] = 2;
+    for (std::size_t i = 0; i < count; ++i) {
+        out << face;
+    }
+}
+
+TEST_F(FileFaults, AMeshThatDoesNotFitIsRefusedBeforeItsTreeIsBuilt) {
+    write_mesh(folder_ / "mesh.ply", 6'000'000);
+    std::ofstream(folder_ / "scene.xml")
+        << R"(<scene version="3.0.0"><shape type="ply"><string name="filename" value="mesh.ply"/></shape></scene>)";
+    expect_error(run_program(task(), "prlimit --as=1600000000"), {6}, "6000000 triangles, needs about");
 }
 #endif
 
