@@ -81,6 +81,41 @@ TEST_F(BsdfMasksTest, BlendsInBlendsHaveTheirProbabilities) {
     });
 }
 
+/// A normal that leans, for both ends of a path in front of it.
+Material leaning_map(uint child) {
+    Material map = make_wrapper(NEARLIGHT_BSDF_NORMAL_MAP, constant(0.0f), child, child);
+    map.reflectance = constant(Vec3{0.6f, 0.5f, 0.9f});
+    map.flags = NEARLIGHT_MATERIAL_TANGENT;
+    return map;
+}
+
+/// The map decides by chance whether a path of flux sees its normal turned, and what lies below has to decide
+/// apart from that: the mean over all choices is the reflectance of what is below, whose light is compared
+/// with that of a plain material under the map.
+TEST_F(BsdfMasksTest, BlendsAndMasksUnderMapsHaveTheirProbabilities) {
+    on_each_device([](Device& device) {
+        BsdfProbe probe(device);
+        const auto mean_under_maps = [&](Material below, uint maps) {
+            BsdfScene scene;
+            scene.materials = {leaning_map(maps == 2 ? 1 : 2), leaning_map(2), below,
+                               make_diffuse(constant(0.2f)), make_diffuse(constant(0.9f))};
+            std::vector<BsdfQuery> queries = all_choices();
+            for (BsdfQuery& query : queries) {
+                query.mode = kFlux;
+            }
+            return mean_value(probe.ask(scene, queries));
+        };
+        for (const uint maps : {1u, 2u}) {
+            const double white = mean_under_maps(make_diffuse(constant(1.0f)), maps);
+            EXPECT_GT(white, 0.1);
+            const Material blend = make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.25f), 3, 4);
+            EXPECT_NEAR(mean_under_maps(blend, maps) / white, 0.75 * 0.2 + 0.25 * 0.9, 2e-3);
+            const Material mask = make_wrapper(NEARLIGHT_BSDF_MASK, constant(0.6f), 4, 4);
+            EXPECT_NEAR(mean_under_maps(mask, maps) / white, 0.6 * 0.9, 2e-3);
+        }
+    });
+}
+
 /// What a mask lets through goes straight on from either side, also where the surface behind it is one-sided.
 TEST_F(BsdfMasksTest, MasksLetLightThroughFromBothSides) {
     on_each_device([](Device& device) {

@@ -89,18 +89,31 @@ static inline float map_tilt(float cosine) {
     return clamp(0.125f * (1.0f - cos2) / fmax(cos2, 1e-12f), 0.0f, 1.0f);
 }
 
+/// Decides with this probability. `u`, which is uniform in [0, 1), is so again afterwards, whatever was
+/// decided.
+static inline bool decide(float* u, float probability) {
+    const bool yes = *u < probability;
+    *u = yes ? *u / probability : (*u - probability) / (1.0f - probability);
+    return yes;
+}
+
+/// The probability with which a path of flux turns the normal of a map that the light sees from the front.
+#define TURNING_PROBABILITY 0.125f
+
 /// Tilts the frame to the normal n, which is given in the frame itself and need not have unit length; one
 /// without a direction leaves the frame as it is. As in Mitsuba, a normal that the viewer sees from behind is
-/// turned about the frame's. Which viewers a path of flux will find is not known yet, so one in eight of
-/// these turns the normal, and counts only for viewers for whom it is turned.
-static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float u) {
+/// turned about the frame's. Which viewers a path of flux will find is not known yet, so some of
+/// these turn the normal, by `u`, and count only for viewers for whom it is turned. Maps on one another
+/// decide together.
+static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float* u) {
     const float squared = dot(n, n);
     n = squared > 0.0f && squared < INFINITY ? n : (float3)(0.0f, 0.0f, 1.0f);
     const float3 wo = world_to_frame(&s->frame, s->wo);
     bool turned = !(wo.z * dot(wo, n) > 0.0f);
     if (s->mode == BSDF_FLUX && !turned) {
-        turned = u < 0.125f;
-        s->scale = turned ? 8.0f : 8.0f / 7.0f;
+        const bool is_decided = s->scale != 1.0f;
+        turned = is_decided ? s->scale > 1.0f / (1.0f - TURNING_PROBABILITY) : decide(u, TURNING_PROBABILITY);
+        s->scale = 1.0f / (turned ? TURNING_PROBABILITY : 1.0f - TURNING_PROBABILITY);
     }
     n = normalize(turned ? (float3)(-n.xy, n.z) : n);
     s->mapped = turned ? MAPPED_TURNED : MAPPED;
@@ -261,20 +274,14 @@ static inline const global Material* resolve_step(const SceneView* scene, const 
                                                   const TextureValue* value, float* turn, float* u) {
     uint child = 0;
     switch (material->model) {
-        case NEARLIGHT_BSDF_MASK: {
-            const float opacity = clamp(value->number.x, 0.0f, 1.0f);
-            if (!(*u < opacity)) {
+        case NEARLIGHT_BSDF_MASK:
+            if (!decide(u, clamp(value->number.x, 0.0f, 1.0f))) {
                 return 0;
             }
-            *u /= opacity;
             break;
-        }
-        case NEARLIGHT_BSDF_BLEND: {
-            const float weight = clamp(value->number.x, 0.0f, 1.0f);
-            child = *u < weight;
-            *u = child ? *u / weight : (*u - weight) / (1.0f - weight);
+        case NEARLIGHT_BSDF_BLEND:
+            child = decide(u, clamp(value->number.x, 0.0f, 1.0f));
             break;
-        }
         case NEARLIGHT_BSDF_TWO_SIDED:
             child = dot(s->wo, s->frame.n) < 0.0f;
             if (child) {
@@ -283,7 +290,7 @@ static inline const global Material* resolve_step(const SceneView* scene, const 
             }
             break;
         case NEARLIGHT_BSDF_NORMAL_MAP:
-            tilt_frame(s, 2.0f * value->color - 1.0f, (float3)(1.0f, 0.0f, 0.0f), *u);
+            tilt_frame(s, 2.0f * value->color - 1.0f, (float3)(1.0f, 0.0f, 0.0f), u);
             break;
         default: {
             Frame front = s->frame;
@@ -294,7 +301,7 @@ static inline const global Material* resolve_step(const SceneView* scene, const 
             const float3 n = bumped_normal(hit, &front, du, dv, value->gradient);
             // Mitsuba's tangent under a bump map is this derivative in world space, taken for one in the
             // frame. Only anisotropy shows it.
-            tilt_frame(s, n, du, *u);
+            tilt_frame(s, n, du, u);
         }
     }
     return scene->materials + material->child[child];
@@ -345,8 +352,9 @@ static inline bool needs_reflectance(const SurfaceBsdf* s, uint model, bool with
     return !without_diffuse || s->mapped == MAPPED_TURNED || model == NEARLIGHT_BSDF_PRINCIPLED;
 }
 
-/// Resolves the material of the hit into s->bsdf and s->frame. `u` decides by chance at masks and blends.
-/// Without D, its colour is not looked up, and D is black, except under a map that turned the normal.
+/// Resolves the material of the hit into s->bsdf and s->frame. `u` decides by chance at masks and blends, and
+/// under maps in paths of flux. Without D, its colour is not looked up, and D is black, except under a map
+/// that turned the normal.
 static inline void resolve_material(const SceneView* scene, const SurfaceHit* hit, SurfaceBsdf* s, float u,
                                     bool without_diffuse) {
     const global Material* material = scene->materials + hit->material;
