@@ -242,9 +242,11 @@ typedef struct GatherParams {
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
-/// stand off their surfaces already, and the margins only keep rounding at the ends from counting as hits.
-#define NEARLIGHT_SEGMENT_T_MIN 1e-5f
-#define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-5f)
+/// stand off their surfaces already, by more than the margins, which only keep rounding at the ends from
+/// counting as hits. They must not be large: a segment to the sky is as long as the scene, and what lies
+/// within its margin casts no shadow.
+#define NEARLIGHT_SEGMENT_T_MIN 1e-6f
+#define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-6f)
 
 /// What a camera sample finds at the end of its path through glass and mirrors. There is one for each
 /// receiver.

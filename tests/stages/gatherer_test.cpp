@@ -138,6 +138,21 @@ TEST_F(GathererTest, NoReceivers) {
     check_case(random_triangles(100, 10, 0, 8), 0.0);
 }
 
+// 2 km of ground have receivers stand 2 mm off their surfaces.
+TEST_F(GathererTest, WhatIsMillimetresAwayHidesLightFromAfar) {
+    const GatherCase data = sheet_above_receivers(0.003f, 1000.0f, 20, 2);
+    on_each_device([&](Device& device) {
+        for (const Variant& variant : variants()) {
+            SCOPED_TRACE(variant.name);
+            Gatherer gatherer(device, variant.config);
+            Uploaded uploaded(device, data);
+            const std::vector<GatherPair> pairs = gatherer.gather_recorded(uploaded.input(), uploaded.sums());
+            EXPECT_EQ(std::ranges::count(pairs, GatherPair::occluded),
+                      static_cast<std::ptrdiff_t>(pairs.size()));
+        }
+    });
+}
+
 TEST_F(GathererTest, DivisionIntoLaunchesDoesNotChangeABit) {
     const GatherCase data = random_triangles(200, 1000, 7, 9);
     on_each_device([&](Device& device) {

@@ -180,6 +180,22 @@ GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets,
     return data;
 }
 
+GatherCase sheet_above_receivers(float gap, float distance, std::size_t vpls, std::size_t packets) {
+    Pcg32 random(18);
+    GatherCase data;
+    data.name = "sheet above receivers";
+    data.extent = 2 * distance;
+    add_triangle(data.scene, {-9, -9, gap}, {9, -9, gap}, {9, 9, gap});
+    add_triangle(data.scene, {-9, -9, gap}, {9, 9, gap}, {-9, 9, gap});
+    std::size_t made = 0;
+    finish(data, vpls, packets, random, [&] {
+        const bool is_vpl = made++ < vpls;
+        const Vec3 place{symmetric(random), symmetric(random), is_vpl ? distance : 0.0f};
+        return ReceiverPoint{place, {0, 0, is_vpl ? -1.0f : 1.0f}};
+    });
+    return data;
+}
+
 PairTerm pair_term(const Vpl& vpl, const ReceiverPoint& receiver, float clamp_radius) {
     const auto dot64 = [](Vec3 a, Vec3 b) {
         return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y +

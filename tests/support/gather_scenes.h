@@ -31,6 +31,9 @@ GatherCase points_on_grid(std::size_t vpls, std::size_t packets, std::uint64_t s
 /// Very thin triangles, and some that are lines or points.
 GatherCase needles(std::size_t triangles, std::size_t vpls, std::size_t packets, std::uint64_t seed);
 
+/// VPLs `distance` above receivers, and a sheet `gap` above these that hides each from each.
+GatherCase sheet_above_receivers(float gap, float distance, std::size_t vpls, std::size_t packets);
+
 struct PairTerm {
     double value = 0.0;  ///< max0(cosθx)·max0(cosθy)/max(r², R²), 0 where not finite or seen from behind
     double min_cosine = 0.0;  ///< the least magnitude of the cosines, that to the shading normal included
