@@ -18,6 +18,7 @@ constexpr std::array kAdvice{
     SettingAdvice{"camera", "check --origin, --target, --up and --fov"},
     SettingAdvice{"clamp_fraction", "use --clamp-radius or --clamp-fraction"},
     SettingAdvice{"device", "use --device"},
+    SettingAdvice{"file", "see --load-vpls"},
     SettingAdvice{"frames", "leave out --frames for a picture of it"},
     SettingAdvice{"interleave", "use --preview, which sets it"},
     SettingAdvice{"kernel_dir", "check --kernel-dir"},

@@ -12,6 +12,7 @@
 
 #include "host/base/files.h"
 #include "host/base/hash.h"
+#include "host/base/limits.h"
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
 #include "host/stages/receiver_paths.h"
@@ -29,7 +30,6 @@ constexpr std::size_t kMaxPasses = 2'000'000;
 constexpr uint kMaxPassNumber = 2'000'000'000;
 constexpr int kMaxDepth = 8;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{16} << 20u;
-constexpr std::uint64_t kMaxCheckpointSide = 65536;
 constexpr std::uint64_t kPixelBytes = PassSums::kSums * sizeof(DoubleSum) + PassSums::kFirsts * sizeof(float);
 constexpr std::uint64_t kFrameBytes = kCheckpointMagic.size() + sizeof(std::uint64_t) + sizeof(Hash128);
 
@@ -274,8 +274,9 @@ CheckpointReader::CheckpointReader(std::filesystem::path file) : file_(std::move
     }
     const std::uint64_t size = kFrameBytes + header_.size() + std::uint64_t{width_} * height_ * kPixelBytes;
     std::error_code error;
-    if (width_ < 1 || height_ < 1 || width_ > kMaxCheckpointSide || height_ > kMaxCheckpointSide ||
-        !is_consistent(record_, height_) || std::filesystem::file_size(file_, error) != size) {
+    if (width_ < 1 || height_ < 1 || width_ > std::uint64_t{kMaxPictureSide} ||
+        height_ > std::uint64_t{kMaxPictureSide} || !is_consistent(record_, height_) ||
+        std::filesystem::file_size(file_, error) != size) {
         fail_as_damaged(file_);
     }
 }

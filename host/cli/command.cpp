@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/limits.h"
 #include "host/base/shell_word.h"
 #include "host/base/suggestion.h"
 #include "host/cli/help_formatter.h"
@@ -21,8 +22,6 @@
 
 namespace nearlight::core {
 namespace {
-
-constexpr int kMaxSide = 65536;
 
 std::vector<std::string> option_names(const CLI::App& app) {
     std::vector<std::string> names;
@@ -244,11 +243,11 @@ ImageSize parse_size(const std::string& text) {
     const auto [middle, width_error] = std::from_chars(text.data(), end, size.width);
     const bool has_x = width_error == std::errc() && middle != end && *middle == 'x';
     const auto [last, height_error] = std::from_chars(has_x ? middle + 1 : end, end, size.height);
-    const auto fits = [](int side) { return side >= 1 && side <= kMaxSide; };
+    const auto fits = [](int side) { return side >= 1 && side <= kMaxPictureSide; };
     if (!has_x || height_error != std::errc() || last != end || !fits(size.width) || !fits(size.height)) {
         throw Error(ErrorKind::invalid_argument, "'" + text +
                                                      "' is not a size; give WIDTHxHEIGHT, each from 1 to " +
-                                                     std::to_string(kMaxSide) + ", as in 640x480");
+                                                     std::to_string(kMaxPictureSide) + ", as in 640x480");
     }
     return size;
 }

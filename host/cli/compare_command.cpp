@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 
+#include "host/base/limits.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -184,7 +185,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--spp", settings.samples_per_pixel,
                     "Camera samples per pixel; a single one lies at the pixel's centre")
-        ->check(CLI::Range(1u, 65536u))
+        ->check(CLI::Range(1u, kMaxSamplesPerPixel))
         ->type_name("N")
         ->capture_default_str();
     command

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/limits.h"
 #include "host/samplers/sampler.h"
 
 namespace nearlight::core {
@@ -20,7 +21,7 @@ void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sa
         .add_option("--vpl-set", sampling.set_count,
                     "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: "
                     "64 times --vpls, at most 2^20)")
-        ->check(CLI::Range(1u, 50'000'000u))
+        ->check(CLI::Range(1u, kMaxVpls))
         ->type_name("N");
 }
 

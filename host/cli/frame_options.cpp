@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "host/base/limits.h"
 #include "host/cli/log.h"
 #include "host/cli/pass_options.h"
 #include "nearlight/error.h"
@@ -12,7 +13,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr int kMaxFrame = 999'999;
 constexpr std::size_t kUsualDigits = 4;
 
 std::optional<int> frame_in(std::string_view text) {

@@ -18,10 +18,12 @@
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/pass_list.h"
+#include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
 #include "host/cli/render_output.h"
 #include "host/cli/rendered_picture.h"
 #include "host/session/pass_average.h"
+#include "host/session/passes.h"
 #include "host/session/render.h"
 
 namespace nearlight::core {
@@ -173,11 +175,9 @@ std::string ranges_text(const PassRecord& record) {
     });
 }
 
-/// The relative error, unless the picture has a single sample per pixel, which says nothing about it.
+/// The relative error, if the passes tell it.
 std::optional<double> error_of(const Merged& merged) {
-    const std::vector<uint> samples = all_samples(merged.record);
-    const bool is_known = samples.size() > 1 || samples.front() > 1;
-    return is_known ? std::optional(merged.average.error()) : std::nullopt;
+    return tells_error(all_samples(merged.record)) ? std::optional(merged.average.error()) : std::nullopt;
 }
 
 /// The attributes of the picture's files: those of the first part, where the passes make no difference.
@@ -249,6 +249,7 @@ ExitCode run_merge(const MergeOptions& options, const GlobalOptions& global) {
     }
     Merged merged = merge_parts(parts);
     const std::optional<double> error = error_of(merged);
+    warn_of_unknown_variance(options.picture, all_samples(merged.record));
     merged.facts.metadata = merged_metadata(merged, error, global.command_line);
     const std::uint64_t hash = write_pictures(options, merged, merged.facts.metadata);
     if (!options.checkpoint.empty()) {

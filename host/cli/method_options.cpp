@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host/base/limits.h"
 #include "host/cli/cuts_options.h"
 #include "host/samplers/sampler.h"
 
@@ -39,7 +40,7 @@ void check_is_close_range(const MethodTexts& texts, const SamplingSettings& samp
 
 void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot) {
     command.add_option("--spp", gather.samples_per_pixel, "Camera samples per pixel, for antialiasing")
-        ->check(CLI::Range(1u, 65536u))
+        ->check(CLI::Range(1u, kMaxSamplesPerPixel))
         ->type_name("N")
         ->capture_default_str();
     command
@@ -64,7 +65,7 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
         .add_option("--vpls", sampling.vpl_count,
                     "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
                     "together")
-        ->check(CLI::Range(0u, 50'000'000u))
+        ->check(CLI::Range(0u, kMaxVpls))
         ->type_name("N")
         ->capture_default_str();
     add_cuts_options(command, texts.cuts, sampling);

@@ -4,12 +4,11 @@
 #include <charconv>
 #include <string_view>
 
+#include "host/base/limits.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
-
-constexpr uint kMaxListedSamples = 65536;
 
 /// The number that the whole text is, from 1 to `max`; 0 if it is none.
 uint whole_number_in(std::string_view text, uint max) {
@@ -42,7 +41,7 @@ std::vector<uint> parse_pass_list(const std::string& text) {
     while (true) {
         const std::string_view part = rest.substr(0, rest.find(','));
         const std::size_t star = part.find('*');
-        const uint each = whole_number_in(part.substr(0, star), kMaxListedSamples);
+        const uint each = whole_number_in(part.substr(0, star), kMaxSamplesPerPixel);
         const uint count = star == part.npos ? 1 : whole_number_in(part.substr(star + 1), kMaxListedPasses);
         if (each == 0 || count == 0 || samples.size() + count > kMaxListedPasses) {
             throw Error(ErrorKind::invalid_argument,

@@ -4,17 +4,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/limits.h"
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
 #include "host/session/passes.h"
 
 namespace nearlight::core {
+namespace {
+
+bool has_variance(const PictureOptions& picture) {
+    return std::ranges::find(picture.layers, "variance") != picture.layers.end();
+}
+
+}  // namespace
 
 void add_pass_options(CLI::App& command, PassOptions& options) {
     auto* const passes = command.add_option(
         "--passes", options.passes,
         "Number of renderings to average, each with different VPLs and random numbers (default: 1)");
-    passes->check(CLI::Range(1u, 1'000'000u))->type_name("N");
+    passes->check(CLI::Range(1u, kMaxPasses))->type_name("N");
     auto* const time = command.add_option(
         "--time", options.seconds,
         "Make as many passes as fit in this time, including the time to read the scene but not that to "
@@ -40,10 +48,19 @@ void add_pass_options(CLI::App& command, PassOptions& options) {
 }
 
 void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings) {
-    if (std::ranges::find(picture.layers, "variance") != picture.layers.end() && !may_have_passes(settings) &&
-        settings.gather.samples_per_pixel < 2) {
+    const uint samples = settings.gather.samples_per_pixel;
+    const bool may_tell = settings.pass_samples.empty()
+                              ? may_have_passes(settings) || tells_error({{samples}})
+                              : tells_error(settings.pass_samples);
+    if (has_variance(picture) && !may_tell) {
         throw Error(ErrorKind::invalid_argument,
                     "the layer variance needs two samples per pixel; use --spp 2 or --passes 2");
+    }
+}
+
+void warn_of_unknown_variance(const PictureOptions& picture, std::span<const uint> samples) {
+    if (has_variance(picture) && !tells_error(samples)) {
+        spdlog::warn("the layer variance is 0 and says nothing: the picture has one sample per pixel");
     }
 }
 

@@ -78,10 +78,29 @@ Metadata make_metadata(const PathTracerSettings& settings, const Scene& scene, d
     return metadata;
 }
 
-void write_outputs(const ReferenceOptions& options, const Scene& scene, const Image& image,
-                   const Metadata& metadata) {
+/// Whether each pixel has a sample.
+bool is_filled(const Image& image) {
+    const auto count = static_cast<std::size_t>(image.find_channel("count.X"));
+    for (std::size_t pixel = 0; pixel < image.values.size(); pixel += image.channel_count()) {
+        if (!(image.values[pixel + count] > 0.0f)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Writes the picture, and returns the files that were written: one without samples in all its pixels does
+/// not take the place of an older picture.
+std::vector<std::filesystem::path> write_outputs(const ReferenceOptions& options, const Scene& scene,
+                                                 const Image& image, const Metadata& metadata) {
     const ScreenLook look = screen_look(options.screen, scene);
+    const bool replaces = is_filled(image);
+    std::vector<std::filesystem::path> written;
     for (const std::filesystem::path& output : options.outputs) {
+        if (!replaces && std::filesystem::exists(output)) {
+            continue;
+        }
+        written.push_back(output);
         if (lower_case_extension(output) == ".exr") {
             write_image(output, image, {.metadata = metadata});
             continue;
@@ -90,6 +109,7 @@ void write_outputs(const ReferenceOptions& options, const Scene& scene, const Im
             look.exposure ? *look.exposure : automatic_exposure(image.channels, image.values);
         write_image(output, image, screen_writer_options(look, exposure, metadata));
     }
+    return written;
 }
 
 /// The picture's noise: the root of the mean variance of its pixels.
@@ -198,11 +218,14 @@ ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& glo
     settings = completed(settings, scene.camera);
     trace(options, global, scene, settings, stored ? &*stored : nullptr, outcome);
 
-    write_outputs(
+    const std::vector<std::filesystem::path> written = write_outputs(
         options, scene, outcome.image,
         make_metadata(settings, scene, outcome.earlier_seconds + outcome.render_seconds, !outcome.stopped));
-    for (const std::filesystem::path& output : options.outputs) {
+    for (const std::filesystem::path& output : written) {
         spdlog::info("wrote {}{}", output.string(), outcome.stopped ? " with the samples so far" : "");
+    }
+    if (written.size() < options.outputs.size()) {
+        spdlog::info("interrupted before all pixels had a sample; older pictures were kept");
     }
     if (global.json) {
         print_json(to_json(options, scene, settings, outcome));

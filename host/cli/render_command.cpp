@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/base/limits.h"
 #include "host/base/thread_limit.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/mpi_options.h"
@@ -59,17 +60,10 @@ ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, 
     RenderRun run = get_ready(options, global, choice);
     PictureStart start{.facts = run.facts()};
     start.passes = pass_start(options.checkpoint, reader, start.facts, run.settings);
-    if (options.passes.seconds) {
-        run.settings.seconds = *options.passes.seconds - total.seconds();
-    }
     catch_interrupts();
     Session session(run.plain_devices(), *run.scene, options.session);
     if (helpers != nullptr) {
-        const Stopwatch waiting;
         enlist(*helpers, run, session);
-        if (run.settings.seconds) {
-            *run.settings.seconds -= waiting.seconds();
-        }
     }
     const MadePicture made = make_picture(session, run, std::move(start), sinks, total);
     if (global.json) {
@@ -157,7 +151,7 @@ void add_render_command(CommandLine& line) {
             "--strata", options->settings.gather.strata,
             "Parts of the set of VPLs. Samples of a pixel take turns to ask about one part each, which "
             "counts for all; 1: each sample asks about all VPLs (default: as many as --spp)")
-        ->check(CLI::Range(1u, 65536u))
+        ->check(CLI::Range(1u, kMaxSamplesPerPixel))
         ->type_name("N");
     add_pass_options(command, options->passes);
     add_tev_option(command, options->tev);

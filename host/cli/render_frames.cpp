@@ -142,9 +142,6 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
                     break;
                 }
             }
-            if (options.passes.seconds) {
-                run.settings.seconds = *options.passes.seconds - total.seconds();
-            }
             sinks.picture.set_outputs(run.options.picture.outputs);
             sinks.first_rows = {};
             MadePicture picture = make_picture(walk.session(), run, {.vpls = walk.vpl_maker()}, sinks, total);

@@ -43,6 +43,7 @@ void tell(const RenderRun& run, const RenderReport& report, bool lacks_mattes, b
                  run.frame ? fmt::format("frame {}: ", run.frame->frame) : "", report.width, report.height,
                  report.totals.close_vpls, report.totals.distant_vpls,
                  report.passes > 1 ? fmt::format(" in {} passes", report.passes) : "", seconds);
+    warn_of_unknown_variance(options.picture, report.pass_samples);
     tell_limits(options.passes, report, min_pass_samples(options.settings.gather), seconds);
     tell_shares(report);
     const char* const note = lacks_mattes          ? " (interrupted: mattes of the last rows are missing)"
@@ -120,13 +121,24 @@ int known_passes(const RenderSettings& settings) {
 }
 
 /// Says how long an error will take, after the first pass only.
-ForecastSink tell_once(ProgressBar& bar, std::string label, const RenderSettings& settings) {
-    return [&bar, &settings, label = std::move(label), told = false](const PassForecast& forecast) mutable {
+ForecastSink tell_once(ProgressBar& bar, std::string label, const RenderSettings& settings,
+                       double seconds_before) {
+    return [&bar, &settings, label = std::move(label), seconds_before,
+            told = false](PassForecast forecast) mutable {
         if (!std::exchange(told, true)) {
             bar.start(std::move(label), 1);
+            forecast.seconds += seconds_before;
             tell_forecast(forecast, *settings.error);
         }
     };
+}
+
+/// The time limit of the options begins with the command, that of a render when it is called.
+RenderSettings in_time_left(RenderSettings settings, double seconds_before) {
+    if (settings.seconds) {
+        settings.seconds = std::max(0.0, *settings.seconds - seconds_before);
+    }
+    return settings;
 }
 
 /// Keeps the picture and the checkpoint on disk up to date.
@@ -277,8 +289,10 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     // The file of a frame says that it is finished, so none is there before.
     const PassWatcher watcher =
         run.frame ? PassWatcher() : [&](const PassesSoFar& so_far) { keeper.watch(so_far); };
-    RenderHooks hooks{
-        .forecast = tell_once(bar, bar_label(run), run.settings), .watcher = watcher, .vpls = start.vpls};
+    const double seconds_before = since_begin.seconds();
+    RenderHooks hooks{.forecast = tell_once(bar, bar_label(run), run.settings, seconds_before),
+                      .watcher = watcher,
+                      .vpls = start.vpls};
     hooks.start = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
         save(run.options.vpl_files, session, view, vpls);
         sinks.open(run, started, view);
@@ -290,7 +304,8 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         return !interrupted();
     };
     const bool has_passes = averages_passes(run.settings, start.passes);
-    RenderReport report = render(session, run.settings, hooks, std::move(start.passes));
+    RenderReport report =
+        render(session, in_time_left(run.settings, seconds_before), hooks, std::move(start.passes));
     bar.clear();
     // Without any row, files that are there are better than black ones.
     const bool has_rows = sinks.first_rows.seconds > 0.0 || !report.interrupted;

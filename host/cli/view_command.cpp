@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "host/base/files.h"
+#include "host/base/limits.h"
 #include "host/base/words.h"
 #include "host/cli/device_options.h"
 #include "host/cli/interrupt.h"
@@ -243,7 +244,7 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
                 "--frames", options.frames,
                 "End by itself when the picture has so many samples per pixel, for tests and screenshots "
                 "(default: when the window is closed)")
-            ->check(CLI::Range(1u, 65536u))
+            ->check(CLI::Range(1u, kMaxSamplesPerPixel))
             ->type_name("N");
     command.add_option("--inspect", options.inspect, "With --frames: ask what lights this pixel")
         ->needs(frames)

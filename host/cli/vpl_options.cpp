@@ -34,6 +34,12 @@ void settle(const VplFiles& files, RenderSettings& settings) {
             "--save-vpls needs a picture of one pass, because each pass has VPLs of its own; leave out "
             "--passes, --pass-spp, --time and --error");
     }
+    if (!files.load.empty() && may_have_passes(settings)) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            "--load-vpls needs a picture of one pass, because its VPLs would be the same in each; leave "
+            "out --passes, --pass-spp, --time and --error");
+    }
     if (!files.save.empty()) {
         check_writable(files.save.string());
     }

@@ -31,7 +31,9 @@ constexpr std::size_t kSampleUnit = 16;
 class ReferenceSums {
   public:
     explicit ReferenceSums(const ReferenceSpec& spec)
-        : values_(spec.width * spec.height * 3), squares_(values_), own_(values_) {}
+        : values_(3 * static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height)),
+          squares_(values_),
+          own_(values_) {}
 
     void add(const Image& pass, double samples) {
         const Image picture = color_layer(pass, "");

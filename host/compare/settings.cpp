@@ -125,7 +125,7 @@ Crop parse_crop(const std::string& text) {
     std::vector<int> numbers;
     for (const std::string& item : split(text, ',')) {
         const std::optional<int> number = whole_number<int>(item);
-        if (!number || *number < 0 || *number > 65536) {
+        if (!number || *number < 0 || static_cast<uint>(*number) > kMaxSamplesPerPixel) {
             numbers.clear();
             break;
         }

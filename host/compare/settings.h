@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/limits.h"
 #include "host/bvh/bvh.h"
 #include "host/compare/method.h"
 
@@ -59,8 +60,6 @@ struct CompareSettings {
 inline constexpr float kDefaultClampFraction = 0.025f;
 /// The paper calls its references "densely sampled: number of VPLs above 200k".
 inline constexpr std::size_t kMinReferenceVpls = 200'000;
-/// Maximum number of VPLs of a picture.
-inline constexpr uint kMaxVpls = 50'000'000;
 /// Number of passes of a reference of VPLs, whose differences give an estimate of its noise.
 inline constexpr std::size_t kReferencePasses = 8;
 /// Maximum number of VPLs of a reference, whose passes are pictures of their own.

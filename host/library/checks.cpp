@@ -7,18 +7,20 @@
 #include <sstream>
 #include <string_view>
 
+#include "host/base/limits.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
 namespace {
 
-constexpr int kMaxSide = 65536;
-constexpr std::uint32_t kMaxVpls = 50'000'000;
-constexpr std::uint32_t kMaxSamples = 65536;
-constexpr std::uint32_t kMaxDirectSamples = 1'000'000;
+using core::kMaxFrame;
+using core::kMaxLightSamples;
+using core::kMaxPasses;
+using core::kMaxPictureSide;
+using core::kMaxSamplesPerPixel;
+using core::kMaxVpls;
+
 constexpr std::uint32_t kMaxDepth = 1024;
-constexpr std::uint32_t kMaxPasses = 1'000'000;
-constexpr int kMaxFrame = 999'999;
 constexpr float kMaxLength = 1e9f;
 constexpr float kMaxRoulette = 1000.0f;
 /// The maximum deviation of a normal's length from 1. Rounding stays below it; a larger deviation means that
@@ -49,8 +51,8 @@ bool is_unit(Vec3 v) {
 }  // namespace
 
 void check(const ViewSettings& settings) {
-    check_range("width", settings.width, 1, kMaxSide);
-    check_range("height", settings.height, 1, kMaxSide);
+    check_range("width", settings.width, 1, kMaxPictureSide);
+    check_range("height", settings.height, 1, kMaxPictureSide);
     check_range("range", settings.range, 1e-6f, kMaxLength);
     check_range("clamp_radius", settings.clamp_radius, 0.0f, kMaxLength);
     check_range("max_depth", settings.max_depth, 1u, kMaxDepth);
@@ -63,21 +65,21 @@ void check(const SamplingSettings& settings) {
 }
 
 void check(const GatherSettings& settings) {
-    check_range("samples_per_pixel", settings.samples_per_pixel, 1u, kMaxSamples);
-    check_range("strata", settings.strata, 1u, kMaxSamples);
+    check_range("samples_per_pixel", settings.samples_per_pixel, 1u, kMaxSamplesPerPixel);
+    check_range("strata", settings.strata, 1u, kMaxSamplesPerPixel);
     check_range("interleave", settings.interleave, 1u, 4u);
     if (settings.interleave == 3) {
         throw Error(ErrorKind::invalid_argument, "interleave is 3; it must be 1, 2 or 4", "interleave");
     }
-    check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxDirectSamples);
-    check_range("rays_per_pixel", settings.rays_per_pixel, 1u, kMaxDirectSamples);
+    check_range("direct_samples_per_pixel", settings.direct_samples_per_pixel, 1u, kMaxLightSamples);
+    check_range("rays_per_pixel", settings.rays_per_pixel, 1u, kMaxLightSamples);
     check_range("shared_limit", settings.shared_limit, 0.0f, std::numeric_limits<float>::max());
     check_range("roulette", settings.roulette, 0.0f, kMaxRoulette);
 }
 
 void check(const IrradianceSettings& settings) {
-    check_range("direct_samples", settings.direct_samples, 1u, kMaxDirectSamples);
-    check_range("paths", settings.paths, 0u, kMaxSamples);
+    check_range("direct_samples", settings.direct_samples, 1u, kMaxLightSamples);
+    check_range("paths", settings.paths, 0u, kMaxSamplesPerPixel);
 }
 
 void check(const RenderSettings& settings) {
@@ -88,7 +90,7 @@ void check(const RenderSettings& settings) {
     check_range("seconds", settings.seconds, 0.0, 1e9);
     check_range("error", settings.error, 1e-5, 100.0);
     for (const std::uint32_t samples : settings.pass_samples) {
-        check_range("pass_samples", samples, 1u, kMaxSamples);
+        check_range("pass_samples", samples, 1u, kMaxSamplesPerPixel);
     }
 }
 

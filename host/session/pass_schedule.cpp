@@ -40,18 +40,16 @@ uint max_passes_of(const RenderSettings& settings) {
 
 }  // namespace
 
-PassSchedule::PassSchedule(const RenderSettings& settings, double seconds_before)
+PassSchedule::PassSchedule(const RenderSettings& settings)
     : list_(settings.pass_samples),
       full_samples_(settings.gather.samples_per_pixel),
       min_samples_(min_pass_samples(settings.gather)),
       max_passes_(max_passes_of(settings)),
       seconds_(settings.seconds),
-      target_(settings.error),
-      seconds_before_(seconds_before) {}
+      target_(settings.error) {}
 
 double PassSchedule::seconds_left() const {
-    return seconds_ ? *seconds_ - seconds_before_ - watch_.seconds()
-                    : std::numeric_limits<double>::infinity();
+    return seconds_ ? *seconds_ - watch_.seconds() : std::numeric_limits<double>::infinity();
 }
 
 double PassSchedule::fitting_samples() const {
@@ -160,7 +158,7 @@ double PassSchedule::fraction(double of_pass) const {
     const double done = done_samples_ + of_present * present_samples_;
     const double all =
         list_.empty() ? 1.0 * full_samples_ * max_passes_ : std::accumulate(list_.begin(), list_.end(), 0.0);
-    const double by_time = seconds_ ? (seconds_before_ + watch_.seconds()) / *seconds_ : 0.0;
+    const double by_time = seconds_ ? watch_.seconds() / *seconds_ : 0.0;
     const double by_error = error_ && target_ ? done / std::max(needed_samples(), 1.0) : 0.0;
     return std::min(1.0, std::max({done / all, by_time, by_error}));
 }
@@ -173,7 +171,7 @@ std::optional<PassForecast> PassSchedule::forecast() const {
     const double unbelieved = *error_ > 0.0 ? believed_passes_ - done : 0.0;
     const double missing = std::max({0.0, (needed_samples() - done_samples_) / full_samples_, unbelieved});
     const double pass_seconds = next_vpl_seconds_ + full_samples_ * pace_.sample_seconds.value_or(0.0);
-    const double seconds = seconds_before_ + watch_.seconds() + missing * pass_seconds;
+    const double seconds = watch_.seconds() + missing * pass_seconds;
     return PassForecast{
         .error = *error_,
         .passes = done + missing,

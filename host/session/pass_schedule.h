@@ -20,7 +20,7 @@ inline constexpr uint kMaxPassesToError = 1000;
 struct PassForecast {
     double error = 0;     ///< so far, see relative_error()
     double passes = 0;    ///< of full length, until the error is reached
-    double seconds = 0;   ///< from the start until then
+    double seconds = 0;   ///< from the beginning until then
     bool reaches = true;  ///< whether the limits of passes and seconds allow that
 };
 
@@ -36,8 +36,8 @@ struct PassPace {
 /// with fewer.
 class PassSchedule {
   public:
-    /// `seconds_before` is the time that was already spent on getting ready.
-    PassSchedule(const RenderSettings& settings, double seconds_before);
+    /// The time of the settings begins now.
+    explicit PassSchedule(const RenderSettings& settings);
 
     /// Goes on after passes of `samples`, whose picture has the error `error` if it is known, with a pass of
     /// `begun_samples` per pixel that is done to the part `begun_part`. If `begun_samples` is 0, the next
@@ -90,7 +90,6 @@ class PassSchedule {
     uint max_passes_;
     std::optional<double> seconds_;
     std::optional<double> target_;
-    double seconds_before_;
     Stopwatch watch_;
 
     std::vector<uint> samples_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "host/base/division.h"
+#include "host/base/limits.h"
 
 namespace nearlight::core {
 namespace {
@@ -20,6 +21,10 @@ uint part_of(uint number, uint part, uint whole) {
 
 bool may_have_passes(const RenderSettings& settings) {
     return settings.seconds || settings.error || settings.pass_samples.size() > 1 || settings.passes > 1u;
+}
+
+bool tells_error(std::span<const uint> samples) {
+    return samples.size() > 1 || (!samples.empty() && samples.front() > 1);
 }
 
 uint pass_seed(uint seed, uint pass) {
@@ -42,9 +47,11 @@ RenderSettings with_samples(RenderSettings settings, uint samples) {
     }
     const uint strata = gather.strata_or_auto();
     const uint fewer_strata = part_of(strata, samples, whole);
-    // A sample asks vpl_count / strata VPLs, so these two keep their quotient.
+    // A sample asks vpl_count / strata VPLs, so these two keep their quotient, as far as whole VPLs and the
+    // limit of a set allow.
     const auto fewer = [&](uint count) {
-        return static_cast<uint>(std::llround(1.0 * count * fewer_strata / strata));
+        const auto rounded = static_cast<double>(std::llround(1.0 * count * fewer_strata / strata));
+        return static_cast<uint>(std::clamp(rounded, count > 0 ? 1.0 : 0.0, 1.0 * kMaxVpls));
     };
     settings.sampling.vpl_count = fewer(settings.sampling.vpl_count);
     if (settings.sampling.set_count) {

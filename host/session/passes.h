@@ -2,6 +2,8 @@
 // Several renderings of one view, which differ only in their random numbers and their numbers of samples.
 #pragma once
 
+#include <span>
+
 #include "kernels/shared/types.h"
 #include "nearlight/settings.h"
 
@@ -9,6 +11,10 @@ namespace nearlight::core {
 
 /// Whether a picture has several passes, or ends by time or error.
 bool may_have_passes(const RenderSettings& settings);
+
+/// Whether the samples per pixel of these passes say anything about the picture's error. A single one does
+/// not.
+bool tells_error(std::span<const uint> samples);
 
 /// The seed of a pass of a picture with the seed `seed`. Pass 0 has `seed` itself; the others mix it with
 /// `pass`, so that pictures of neighbouring seeds share no pass.

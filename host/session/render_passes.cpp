@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/render_passes.h"
 
+#include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "host/base/message.h"
 #include "host/session/passes.h"
 #include "host/session/picture_window.h"
 #include "host/session/render_steps.h"
@@ -52,12 +55,19 @@ RenderSettings pass_settings(const RenderSettings& settings, uint number, uint s
     return with_samples(std::move(result), samples);
 }
 
-/// The picture's relative error after passes of so many samples. A single sample per pixel says nothing about
-/// it.
+/// The picture's relative error after passes of so many samples, if they tell it.
 std::optional<double> known_error(const RenderSettings& settings, const Passes& passes,
                                   std::span<const uint> samples) {
-    const bool is_known = samples.size() > 1 || (!samples.empty() && samples.front() > 1);
-    return settings.error && is_known ? std::optional(passes.average->error()) : std::nullopt;
+    return settings.error && tells_error(samples) ? std::optional(passes.average->error()) : std::nullopt;
+}
+
+/// A pass that was begun is ended whatever the time, because its samples would else be lost.
+void warn_of_long_rest(const RenderSettings& settings, const PassRecord& record, double rest) {
+    const double seconds = rest * record.begun_samples * record.pace.sample_seconds.value_or(0.0);
+    if (settings.seconds && seconds > *settings.seconds) {
+        say_warning("the pass that the checkpoint left unfinished takes about " +
+                    std::to_string(std::lround(seconds)) + " s more, longer than the time that is given");
+    }
 }
 
 /// Goes on from a checkpoint.
@@ -77,6 +87,7 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
     passes.begun_rows = record.begun_rows;
     passes.average.emplace(std::move(checkpoint.sums), record.begun_samples, record.begun_rows);
     passes.schedule.believe_after(passes.average->telling_passes());
+    warn_of_long_rest(settings, record, 1.0 - record.begun_rows / height);
     passes.schedule.resume(samples,
                            record.begun_rows == 0 ? known_error(settings, passes, samples) : std::nullopt,
                            record.pace, record.begun_samples, record.begun_rows / height);
@@ -88,7 +99,7 @@ void resume(Session& session, const RenderSettings& settings, Checkpoint checkpo
 
 Passes begin_passes(Session& session, const RenderSettings& settings, const VplMaker& vpls, PassStart start,
                     RenderReport& report) {
-    Passes passes{.schedule = PassSchedule(settings, report.seconds.total), .first = start.first};
+    Passes passes{.schedule = PassSchedule(settings), .first = start.first};
     if (start.checkpoint) {
         resume(session, settings, std::move(*start.checkpoint), passes, report);
     }

@@ -179,8 +179,9 @@ struct RenderSettings {
     /// The number of passes to average, each with random numbers and VPLs of its own. Empty means one pass,
     /// or, if `seconds` or `error` is given, as many as it takes.
     std::optional<std::uint32_t> passes{};
-    /// The time limit in seconds from the start. The last pass has fewer samples, so that it ends in time; so
-    /// has the first, if it would take far longer, but never fewer than two (or `samples_per_pixel`).
+    /// The time limit in seconds, from the call that makes the picture. The last pass has fewer samples, so
+    /// that it ends in time; so has the first, if it would take far longer, but never fewer than two (or
+    /// `samples_per_pixel`).
     std::optional<double> seconds{};
     /// Makes passes until the relative error of the picture is at most this, or until there are `passes`, or
     /// 1000. The relative error is the root of the mean of variance ÷ (b² + m²/100) over all pixels but the

@@ -30,9 +30,10 @@ TEST(Advice, IsLeftOutWhereNoOptionHelps) {
 TEST(Advice, OptionsExist) {
     const std::string help = run_program("render --help").output + run_program("compare --help").output +
                              run_program("bench gather --help").output;
-    for (const char* setting : {"baseline", "cache_dir", "clamp_fraction", "crop", "device", "interleave",
-                                "kernel_dir", "max_depth", "reference_files", "reference_sampler",
-                                "reference_vpls", "samplers", "segments", "size", "strict", "vpls"}) {
+    for (const char* setting :
+         {"baseline", "cache_dir", "clamp_fraction", "crop", "device", "file", "interleave", "kernel_dir",
+          "max_depth", "reference_files", "reference_sampler", "reference_vpls", "samplers", "segments",
+          "size", "strict", "vpls"}) {
         const std::string advised = with_advice(Error(ErrorKind::invalid_argument, "", setting));
         std::smatch option;
         ASSERT_TRUE(std::regex_search(advised, option, std::regex("--[a-z-]+"))) << setting;

@@ -143,5 +143,24 @@ TEST_F(PassOptionsOfRender, RefusesErrorsAndListsThatAreNone) {
     }
 }
 
+TEST_F(PassOptionsOfRender, VarianceOfASingleSampleIsRefusedOrWarnedOf) {
+    NEARLIGHT_NEEDS_DEVICE();
+    EXPECT_EQ(render("--layers variance --pass-spp 1").exit_code, 2);
+    const ProgramResult hurried = run_program("render --vpls 10 --spp 1 --time 0 --layers variance " +
+                                              quoted(scene_) + " -o " + quoted(output_));
+    EXPECT_EQ(hurried.exit_code, 0) << hurried.errors;
+    EXPECT_TRUE(says(hurried, "the layer variance is 0 and says nothing")) << hurried.errors;
+    EXPECT_FALSE(says(render("--layers variance --pass-spp 1,1"), "says nothing"));
+}
+
+TEST_F(PassOptionsOfRender, VplsOfAFileAreRefusedBeforeTheSceneIsRead) {
+    for (const char* passes : {"--passes 2", "--time 1", "--error 0.1", "--pass-spp 4,4"}) {
+        const ProgramResult result =
+            run_program("render --load-vpls none.ply no-such-scene.xml -o " + quoted(output_) + " " + passes);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_TRUE(says(result, "--load-vpls needs a picture of one pass")) << result.errors;
+    }
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -27,7 +27,7 @@ TEST(SceneMemory, EachDeviceOfTheMachineNeedsACopyBesidesTheTrees) {
 TEST(SceneMemory, CountsTexturesAndTheEnvironment) {
     Scene scene = small_scenes::court_under_sky();
     const SceneMemory before = estimate_scene_memory(scene);
-    scene.images.push_back({.words = std::vector<uint>(1000)});
+    scene.images.emplace_back().words.resize(1000);
     scene.environment.radiance.resize(scene.environment.radiance.size() + 500);
     const SceneMemory after = estimate_scene_memory(scene);
     EXPECT_EQ(after.textures - before.textures, 4000u);
