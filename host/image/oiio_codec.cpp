@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The image module, the only file that knows OpenImageIO.
+// The image module. No other file knows OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <system_error>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "host/base/names.h"
 #include "host/image/image_codec.h"
+#include "host/image/webp_codec.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -81,6 +84,9 @@ bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
 }
 
 DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
+    if (std::optional<DecodedImage> webp = decode_webp(file, bytes)) {
+        return std::move(*webp);
+    }
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
     const auto input = open(file, bytes.empty() ? nullptr : &memory);
     const OIIO::ImageSpec& spec = input->spec();

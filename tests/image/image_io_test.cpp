@@ -4,6 +4,9 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string_view>
+
 #include "host/base/random.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
@@ -183,6 +186,23 @@ TEST(ImageIo, AlphaIsNotMultiplied) {
     ASSERT_EQ(image.channel_count(), 4u);
     EXPECT_FLOAT_EQ(image.at(0, 0, 0), 200.0f / 255.0f);
     EXPECT_FLOAT_EQ(image.at(0, 0, 3), 0.2f);
+}
+
+/// A losslessly compressed WebP of one pixel, (200, 100, 50) with the alpha 51, as Pillow 12 writes it.
+TEST(ImageIo, AlphaOfWebpIsNotMultiplied) {
+    constexpr std::string_view kWebp{
+        "\x52\x49\x46\x46\x1e\x00\x00\x00\x57\x45\x42\x50\x56\x50\x38\x4c\x11\x00\x00\x00\x2f\x00\x00\x00"
+        "\x10\x07\x50\xb2\x22\x57\xa6\x33\x81\x88\xe8\x7f\x00\x00",
+        38};
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.webp", std::ios::binary).write(kWebp.data(), std::ssize(kWebp));
+    const Image image = read_image(folder / "a.webp");
+    ASSERT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+    EXPECT_FLOAT_EQ(image.at(0, 0, 0), 200.0f / 255.0f);
+    EXPECT_FLOAT_EQ(image.at(0, 0, 2), 50.0f / 255.0f);
+    EXPECT_FLOAT_EQ(image.at(0, 0, 3), 0.2f);
+    std::ofstream(folder / "cut.webp", std::ios::binary).write(kWebp.data(), std::ssize(kWebp) - 5);
+    EXPECT_THROW(read_image(folder / "cut.webp"), Error);
 }
 
 /// Files as other programs write them, in formats that we only read.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/webp_codec.h"
+
+#include <webp/decode.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace nearlight::core {
+namespace {
+
+/// "RIFF", four bytes of size, "WEBP".
+constexpr std::size_t kHeadSize = 12;
+
+bool is_webp(std::span<const char> head) {
+    return head.size() == kHeadSize && std::memcmp(head.data(), "RIFF", 4) == 0 &&
+           std::memcmp(head.data() + 8, "WEBP", 4) == 0;
+}
+
+/// The content of the file, if it is WebP.
+std::vector<char> webp_in(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    std::array<char, kHeadSize> head{};
+    if (!input.read(head.data(), head.size()) || !is_webp(head)) {
+        return {};
+    }
+    std::vector<char> content(head.begin(), head.end());
+    content.insert(content.end(), std::istreambuf_iterator<char>(input), {});
+    return content;
+}
+
+struct WebPDeleter {
+    void operator()(std::uint8_t* pixels) const { WebPFree(pixels); }
+};
+
+}  // namespace
+
+std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+    const std::vector<char> content =
+        bytes.empty() ? webp_in(file)
+                      : std::vector<char>(reinterpret_cast<const char*>(bytes.data()),
+                                          reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+    if (content.size() < kHeadSize || !is_webp(std::span(content).first(kHeadSize))) {
+        return std::nullopt;
+    }
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(content.data());
+    WebPBitstreamFeatures features{};
+    if (WebPGetFeatures(data, content.size(), &features) != VP8_STATUS_OK || features.has_animation != 0) {
+        fail_image("cannot read image", file,
+                   features.has_animation != 0 ? "it is an animation" : "it is damaged");
+    }
+    const std::size_t channels = features.has_alpha != 0 ? 4 : 3;
+    const std::size_t count =
+        static_cast<std::size_t>(features.width) * static_cast<std::size_t>(features.height) * channels;
+    if (!fits_in_file(count, content.size())) {
+        fail_image("cannot read image", file, "its header promises more pixels than it can hold");
+    }
+    int width = 0;
+    int height = 0;
+    const auto decode = channels == 4 ? WebPDecodeRGBA : WebPDecodeRGB;
+    const std::unique_ptr<std::uint8_t, WebPDeleter> codes(decode(data, content.size(), &width, &height));
+    if (!codes) {
+        fail_image("cannot read image", file, "it is damaged or incomplete");
+    }
+    Image image{
+        .width = width, .height = height, .channels = {"R", "G", "B"}, .values = {}, .holds_floats = false};
+    if (channels == 4) {
+        image.channels.emplace_back("A");
+    }
+    image.values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        image.values.push_back(static_cast<float>(codes.get()[i]) * (1.0f / 255.0f));
+    }
+    return DecodedImage{std::move(image), true};
+}
+
+}  // namespace nearlight::core
