@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace nearlight::core {
 
@@ -33,5 +34,14 @@ std::filesystem::path path_in_folder(const std::filesystem::path& folder, std::s
 
 /// The path that `name` stands for in `file`: relative to the folder of `file`, as above.
 std::filesystem::path resolve_path(const std::filesystem::path& file, const std::string& name);
+
+/// The file that `name` stands for in `file`, if both may have been written on another computer: the path
+/// that resolve_path() returns, or else the bare name in the folder of `file`. If neither is a file, the same
+/// two in any case of letters, where of several files the first in alphabetical order counts. If there is no
+/// such file, what resolve_path() returns.
+std::filesystem::path find_moved_file(const std::filesystem::path& file, const std::string& name);
+
+/// Whether the texts are the same but for the case of ASCII letters.
+bool equal_in_any_case(std::string_view a, std::string_view b);
 
 }  // namespace nearlight::core

@@ -2,6 +2,7 @@
 // The textures of material libraries.
 #include "host/image/image.h"
 #include "host/image/image_io.h"
+#include "host/scene/file_text.h"
 #include "host/scene/texture.h"
 #include "tests/scene/obj_text.h"
 
@@ -85,6 +86,78 @@ TEST_F(ObjTextures, OpacityIsTheAlphaOfImagesThatHaveSome) {
     EXPECT_NEAR(opacity("map_d leaf.exr\n"), 0.25f, 1e-3f);
     EXPECT_NEAR(opacity("map_d grey.exr\n"), 0.75f, 1e-3f);
     EXPECT_NEAR(opacity("map_d -imfchan g leaf.exr\n"), 0.6f, 1e-3f);
+}
+
+TEST_F(ObjTextures, TransparencyIsOneMinusAnOpacity) {
+    write_image("grey.exr", {"R", "G", "B"}, {0.25f, 0.25f, 0.25f});
+    write_image("colors.exr", {"R", "G", "B"}, {0.25f, 0.5f, 1.0f});
+    const auto opacity = [&](const std::string& entry) {
+        const Material mask = load(entry);
+        EXPECT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
+        return parameter_value(scene_, mask.reflectance, 0, 0).x;
+    };
+    EXPECT_NEAR(opacity("map_Tr grey.exr\n"), 0.75f, 1e-3f);
+    EXPECT_TRUE(has_note(scene_, "m.mtl:1: a texture of the transparency (map_Tr)"));
+    EXPECT_NEAR(opacity("MAP_TR\t-s 2 2 -imfchan g colors.exr\n"), 0.5f, 1e-3f);
+    EXPECT_NEAR(opacity("map_Tr colors.exr\nmap_d grey.exr\n"), 0.25f, 1e-3f);
+    EXPECT_FALSE(has_note(scene_, "map_Tr"));
+}
+
+TEST_F(ObjTextures, MayBeNamedAsOnAnotherComputer) {
+    files_.write("maps/readme", "");
+    write_image("maps/Wood.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    write_image("tile.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    for (const char* name :
+         {"maps\\Wood.exr", ".\\MAPS\\wood.EXR", "C:\\Users\\me\\tile.exr", "//server/maps/Tile.EXR"}) {
+        const Material two_sided = load(std::string("map_Kd ") + name + "\nmap_Ke " + name + "\n");
+        EXPECT_GE(scene_.materials[two_sided.child[0]].reflectance.texture, 0) << name;
+        EXPECT_GE(two_sided.emission.texture, 0) << name;
+        EXPECT_FALSE(has_note(scene_, "texture is replaced")) << name;
+    }
+    load("map_Kd C:\\maps\\stone.exr\n");
+    EXPECT_TRUE(has_note(scene_, "m.mtl:3: texture is replaced"));
+}
+
+TEST(MovedFiles, AreFoundByTheirBareNameAndInAnyCase) {
+    const SceneFiles files;
+    for (const char* name : {"maps/Wood.jpg", "maps/wood.JPG", "Maps/stone.jpg", "Sky/Blue.png", "blue.png",
+                             "tile.png", "Tile.png"}) {
+        files.write(name, "");
+    }
+    const auto expect_found = [&](const std::string& name, const char* wanted) {
+        const std::filesystem::path found = find_moved_file(files.path("m.mtl"), name);
+        EXPECT_EQ(found.lexically_normal().string(), files.path(wanted).lexically_normal().string()) << name;
+    };
+    expect_found("maps/wood.JPG", "maps/wood.JPG");
+    expect_found("maps\\wood.JPG", "maps/wood.JPG");
+    expect_found("C:\\Users\\me\\maps\\tile.png", "tile.png");
+    expect_found("/home/me/maps/tile.png", "tile.png");
+    expect_found("MAPS/WOOD.JPG", "maps/Wood.jpg");  // the first of two
+    expect_found("Maps/Wood.jpg", "maps/Wood.jpg");  // the folder of that very name has no such file
+    expect_found("maps/stone.jpg", "Maps/stone.jpg");
+    expect_found("sky/blue.png", "blue.png");
+    expect_found("sky/BLUE.png", "Sky/Blue.png");
+    expect_found("D:\\TILE.PNG", "Tile.png");
+    expect_found(files.path("MAPS/STONE.jpg").string(), "Maps/stone.jpg");
+    expect_found("gone.png", "gone.png");
+    expect_found("maps", "maps");
+    expect_found("C:\\gone.png", "C:/gone.png");
+}
+
+TEST(Obj, LibrariesMayBeNamedAsOnAnotherComputer) {
+    const SceneFiles files;
+    files.write("a.mtl", "newmtl a\nKd 0.1 0.1 0.1\nillum 1\n");
+    files.write("My B.mtl", "newmtl b\nKd 0.2 0.2 0.2\nillum 1\n");
+    files.write("B.mtl", "newmtl b\nKd 0.3 0.3 0.3\nillum 1\n");
+    const auto reflectance = [&](const std::string& libraries) {
+        const Scene scene =
+            load_obj(files, "mtllib " + libraries + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\n");
+        EXPECT_FALSE(has_note(scene, "cannot be read")) << libraries;
+        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]].reflectance.value.x;
+    };
+    EXPECT_FLOAT_EQ(reflectance("C:\\My models\\my b.MTL"), 0.2f);
+    EXPECT_FLOAT_EQ(reflectance("models/B.mtl"), 0.3f);
+    EXPECT_FLOAT_EQ(reflectance("a.mtl b.mtl"), 0.3f);
 }
 
 TEST_F(ObjTextures, EmissionHasOne) {

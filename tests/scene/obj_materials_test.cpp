@@ -187,6 +187,38 @@ TEST(Obj, SeveralLibrariesOnOneLine) {
     EXPECT_TRUE(has_note(scene, "m.obj:1: material library 'none.mtl' cannot be read"));
 }
 
+TEST(Obj, KeywordsOfLibrariesMayHaveAnyCase) {
+    const SceneFiles files;
+    files.write("m.mtl", "NEWMTL Wall\nkd 0.8 0.1 0.2\nILLUM\t1\nD 0.5\n");
+    const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wall\nf 1 2 3\n");
+    const Material& mask = scene.materials[scene.triangles.at(0).material];
+    ASSERT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_FLOAT_EQ(mask.reflectance.value.x, 0.5f);
+    expect_near(scene.materials[scene.materials[mask.child[0]].child[0]].reflectance.value,
+                {0.8f, 0.1f, 0.2f});
+}
+
+TEST(Obj, StatementsThatAreLeftOutAreNotedOnce) {
+    const SceneFiles files;
+    files.write(
+        "m.mtl",
+        "newmtl a\nKa 1 1 1\nmap_Ka x.png\nMAP_AAT on\nsharpness 60\nKd 1 1 1\nrefl -type sphere s.png\n"
+        "newmtl b\n refl t.png\ndecal d.png\nshine 3\r\n# gloss 4\nend\n0 1\nnewmtl c\nsheen 1\n");
+    const Scene scene =
+        load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    std::vector<std::string> statements;
+    for (const Note& note : scene.notes) {
+        if (mentions(note.text, "statement ")) {
+            statements.push_back(std::to_string(note.line) + " " + note.text);
+        }
+    }
+    const std::string rest = " of OBJ materials is left out";
+    EXPECT_EQ(statements, (std::vector{"7 statement 'refl'" + rest, "10 statement 'decal'" + rest,
+                                       "11 statement 'shine'" + rest}));
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("m.obj"), {.strict = true}); }),
+                         "m.mtl:7: statement 'refl'"));
+}
+
 TEST(Obj, MirrorsReflectKsAndScatterKd) {
     const SceneFiles files;
     files.write("m.mtl", "newmtl m\nKd 0.2 0.1 0\nKs 0.4 0.5 0.5\nillum 3\n");
@@ -223,6 +255,16 @@ TEST(Obj, BlendersMetalAndPlastic) {
     EXPECT_FLOAT_EQ(plastic.metallic.value.x, 0.0f);
     EXPECT_FLOAT_EQ(plastic.eta.x, 1.45f);
     EXPECT_EQ(material("Ns 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n").model, NEARLIGHT_BSDF_DIFFUSE);
+}
+
+/// Blender writes illum 9 for every surface with an opacity below 1.
+TEST(Obj, BlendersTransparencyIsNoGlass) {
+    const SceneFiles files;
+    files.write("b.mtl", "# Blender 4.0.2 MTL File: 'a.blend'\nnewmtl m\nKs 0.5 0.5 0.5\nd 0.25\nillum 9\n");
+    const Scene scene = load_obj(files, "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    const Material& mask = scene.materials[scene.triangles.at(0).material];
+    ASSERT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_FLOAT_EQ(mask.reflectance.value.x, 0.25f);
 }
 
 /// Before Blender 3, only the OBJ file told the version, and 900 was the exponent of smooth surfaces.
@@ -288,6 +330,8 @@ TEST(Obj, ClosedGlassIsABody) {
     EXPECT_FLOAT_EQ(body.eta.x, 1.33f);
     EXPECT_FLOAT_EQ(body.transmission.value.x, 0.5f);
     EXPECT_EQ(glass("7", "").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
+    EXPECT_EQ(glass("9", "f 1 4 3\n").model, NEARLIGHT_BSDF_DIELECTRIC);
+    EXPECT_EQ(glass("9", "").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
     EXPECT_EQ(glass("4", "f 1 4 3\n").model, NEARLIGHT_BSDF_THIN_DIELECTRIC);
 }
 

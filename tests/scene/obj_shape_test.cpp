@@ -89,6 +89,61 @@ TEST(Obj, ShapesOfMitsubaMayHaveAMaximumSmoothAngle) {
     expect_near(corner_normals(load(angle("30")), 0)[0], {0, 0, 1});
 }
 
+/// Mitsuba 0.5 and 0.6 begin a mesh at `g` and `usemtl` where faces have come before, but not at `o`.
+TEST(Obj, ShapesOfOldMitsubaMayBeOneMeshOfAFile) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl a\nKd 0.1 0 0\nillum 1\nnewmtl b\nKd 0.8 0 0\nillum 1\n");
+    files.write("m.obj",
+                "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\ng one\nusemtl a\nf 1 2 3\n"
+                "o name\nf 1 2 3\ng\nf 3 4 5\nf 3 4 5\nf 3 4 5\nusemtl b\ng three\nf 1 2 3 4\n"
+                "g four\nf 1 2 9\n");
+    const auto mesh = [&](const char* index) {
+        return load_scene(files.write("scene.xml", "<scene version='0.6.0'>" +
+                                                       shape("obj",
+                                                             "<string name='filename' value='m.obj'/>"
+                                                             "<integer name='shapeIndex' value='" +
+                                                                 std::string(index) + "'/>") +
+                                                       "</scene>"));
+    };
+    const auto red = [](const Scene& scene) {
+        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]].reflectance.value.x;
+    };
+    EXPECT_EQ(mesh("0").triangles.size(), 2u);
+    EXPECT_FLOAT_EQ(red(mesh("0")), 0.1f);
+    const Scene second = mesh("1");
+    EXPECT_EQ(second.triangles.size(), 3u);
+    EXPECT_EQ(second.vertices.size(), 3u);
+    EXPECT_FLOAT_EQ(red(second), 0.1f);
+    EXPECT_FALSE(has_note(second, "ignored"));
+    EXPECT_EQ(mesh("2").triangles.size(), 2u);
+    EXPECT_FLOAT_EQ(red(mesh("2")), 0.8f);
+    EXPECT_TRUE(mentions(file_error([&] { mesh("3"); }), "m.obj:20: face refers to vertex 9"));
+    const std::string error = file_error([&] { mesh("4"); });
+    EXPECT_TRUE(mentions(error, "scene.xml:1: ")) << error;
+    EXPECT_TRUE(mentions(error, "has 4 meshes, which begin at g and usemtl, and no mesh with the index 4"));
+}
+
+TEST(Obj, ShapesOfMitsubaMayBeAllMeshesOfAFile) {
+    const SceneFiles files;
+    files.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng two\nf 3 2 1\nf 3 2 1\n");
+    const auto load = [&](const std::string& version, const std::string& more) {
+        return load_scene(files.write(
+            "scene.xml", "<scene version='" + version + "'>" +
+                             shape("obj", "<string name='filename' value='m.obj'/>" + more) + "</scene>"));
+    };
+    const std::string collapse = "<boolean name='collapse' value='true'/>";
+    const std::string first = "<integer name='shapeIndex' value='0'/>";
+    const std::string second = "<integer name='shapeIndex' value='1'/>";
+    EXPECT_EQ(load("0.6.0", "").triangles.size(), 3u);
+    EXPECT_EQ(load("0.6.0", "<integer name='shapeIndex' value='-1'/>").triangles.size(), 3u);
+    EXPECT_EQ(load("0.6.0", second).triangles.size(), 2u);
+    EXPECT_EQ(load("0.6.0", collapse + first).triangles.size(), 3u);
+    EXPECT_TRUE(mentions(file_error([&] { load("0.6.0", collapse + second); }), "'collapse' makes one mesh"));
+    const Scene recent = load("3.0.0", "<integer name='shape_index' value='1'/>");
+    EXPECT_EQ(recent.triangles.size(), 3u);
+    EXPECT_TRUE(has_note(recent, "unknown property 'shape_index'"));
+}
+
 TEST(Obj, SmoothingGroupsSayWhatIsSmooth) {
     const SceneFiles files;
     const Scene one = load_obj(files, folded(60, "s 1\n"));
@@ -147,6 +202,23 @@ TEST(Obj, LinesMayEndWithCarriageReturns) {
     const Material side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
     expect_near(corner_normals(scene, 0)[0], {0, 0, 0});
+}
+
+/// Some editors begin UTF-8 text with such a mark.
+TEST(Obj, AByteOrderMarkIsNoText) {
+    const SceneFiles files;
+    const std::string mark = "\xef\xbb\xbf";
+    files.write("m.mtl", mark + "newmtl m\nKd 0.1 0.2 0.3\nmap_Ke no.png\nillum 1\n");
+    const std::string text = mark + "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    const Scene scene = load_obj(files, text);
+    const Material& side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
+    EXPECT_TRUE(has_note(scene, "m.mtl:3: texture is replaced"));
+    EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text + "f 1 2 4\n"); }), "m.obj:7: "));
+    files.write("m.mtl", mark + "# Blender 4.0.2 MTL File: 'a.blend'\nnewmtl m\nKs 0.5 0.5 0.5\nillum 2\n");
+    const Scene blenders = load_obj(files, text);
+    EXPECT_EQ(blenders.materials[blenders.materials[blenders.triangles.at(0).material].child[0]].model,
+              NEARLIGHT_BSDF_PRINCIPLED);
 }
 
 TEST(Obj, LinesMayContinue) {

@@ -16,11 +16,13 @@ bool is_physically_based(const tinyobj::material_t& entry) {
 }
 
 /// Maya gives illum 4 to all materials. So that model alone makes no glass of a surface that has a colour of
-/// its own, an opacity of 1 and no index of refraction. Blender's illum 6 is transparent metal.
+/// its own, an opacity of 1 and no index of refraction. Blender's illum 6 is transparent metal, and its
+/// illum 9 any other surface with an opacity below 1.
 bool is_glass(const tinyobj::material_t& entry, bool is_blenders) {
     const bool is_opaque = entry.dissolve >= 1.0f && entry.ior <= 1.001f &&
                            (!is_zero(to_vec3(entry.diffuse)) || !entry.diffuse_texname.empty());
-    return entry.illum == 7 || (entry.illum == 6 && !is_blenders) || (entry.illum == 4 && !is_opaque);
+    return entry.illum == 7 || ((entry.illum == 6 || entry.illum == 9) && !is_blenders) ||
+           (entry.illum == 4 && !is_opaque);
 }
 
 /// Blender's illum 3 and 6 are metal.

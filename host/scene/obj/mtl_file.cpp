@@ -2,7 +2,9 @@
 #include "host/scene/obj/mtl_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <istream>
+#include <iterator>
 #include <optional>
 
 #include "host/base/words.h"
@@ -13,6 +15,40 @@
 
 namespace nearlight::core {
 namespace {
+
+/// What lines of an entry may begin with, without a note that they are left out. Ambient light (Ka, map_Ka)
+/// says nothing of a surface in a scene whose light is computed, map_aat is about pixels, and sharpness about
+/// the pictures of reflections alone, which have a note.
+constexpr std::string_view kStatements[] = {
+    "newmtl", "Ka",     "Kd",     "Ks",     "Ke",     "Kt",       "Tf",      "Tr",       "d",
+    "Ns",     "Ni",     "illum",  "Pr",     "Pm",     "Ps",       "Pc",      "Pcr",      "aniso",
+    "anisor", "map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_d",    "map_Tr",  "map_Bump", "bump",
+    "norm",   "map_Ns", "map_Pr", "map_Pm", "disp",   "map_Disp", "map_aat", "sharpness"};
+
+/// Spells the words that lines begin with as tinyobjloader knows them, because programs differ in the case of
+/// letters, and puts a blank behind them, where some have a tab.
+void tidy_statements(std::string& text) {
+    for_each_line(text, [&](int, std::string_view line) {
+        const std::string_view word = first_word(line);
+        const auto known = std::ranges::find_if(
+            kStatements, [&](std::string_view statement) { return equal_in_any_case(statement, word); });
+        if (known != std::end(kStatements)) {
+            char* const begin = text.data() + (word.data() - text.data());
+            std::ranges::copy(*known, begin);
+            if (begin[word.size()] == '\t') {
+                begin[word.size()] = ' ';
+            }
+        }
+        return true;
+    });
+}
+
+/// Whether the word can begin a statement; what cannot comes from files that are no material libraries.
+bool looks_like_statement(std::string_view word) {
+    const auto is_usual = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    return !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0 &&
+           std::ranges::all_of(word, is_usual);
+}
 
 // Some releases of tinyobjloader cut the names of materials at the first blank, so they are read from the
 // text.
@@ -116,8 +152,9 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file, s
     } catch (const Error&) {
         return std::nullopt;
     }
-    library.blenders_exponent = blenders_exponent(library.text, text_of_obj);
     tidy_lines(library.text);
+    library.blenders_exponent = blenders_exponent(library.text, text_of_obj);
+    tidy_statements(library.text);
     complete_options(library.text);
     TextBuffer buffer(library.text);
     std::istream stream(&buffer);
@@ -131,15 +168,24 @@ std::optional<MaterialLibrary> read_library(const std::filesystem::path& file, s
 }
 
 /// The libraries that a line names: the text as a whole, whose blanks may be those of a file's name, or else
-/// its words if there is a file for one of them.
+/// its words if there is a file for one of them. Files that have moved count if nothing is where it should
+/// be.
 std::vector<std::string> names_in(const std::string& text, const std::filesystem::path& obj) {
     std::error_code ignored;
     const auto is_there = [&](const std::string& name) {
         return !name.empty() && std::filesystem::exists(resolve_path(obj, name), ignored);
     };
+    const auto has_moved = [&](const std::string& name) {
+        return !name.empty() && std::filesystem::exists(find_moved_file(obj, name), ignored);
+    };
     std::vector<std::string> words = split(text, ' ');
     std::erase(words, "");
-    return !is_there(text) && std::ranges::any_of(words, is_there) ? words : std::vector{text};
+    if (is_there(text)) {
+        return {text};
+    }
+    const bool are_names =
+        std::ranges::any_of(words, is_there) || (!has_moved(text) && std::ranges::any_of(words, has_moved));
+    return are_names ? words : std::vector{text};
 }
 
 }  // namespace
@@ -149,7 +195,7 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
     for (const auto& [line, text] : obj.libraries) {
         for (const std::string& name : names_in(text, obj.mesh.source)) {
             if (std::optional<MaterialLibrary> library =
-                    read_library(resolve_path(obj.mesh.source, name), obj.text)) {
+                    read_library(find_moved_file(obj.mesh.source, name), obj.text)) {
                 libraries.push_back(std::move(*library));
             } else {
                 notes.approximation(obj.mesh.source, line,
@@ -158,6 +204,24 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
         }
     }
     return libraries;
+}
+
+void note_unknown_statements(const MaterialLibrary& library, TextLine begin, NoteSink& notes) {
+    if (begin.number == 0) {
+        return;
+    }
+    for_each_line(std::string_view(library.text).substr(begin.begin), [&](int number, std::string_view line) {
+        if (number > 1 && starts_with_word(line, "newmtl")) {
+            return false;
+        }
+        const std::string_view word = first_word(line);
+        if (looks_like_statement(word) && std::ranges::find(kStatements, word) == std::end(kStatements) &&
+            !value_after(line, word).empty()) {
+            notes.approximation(library.file, begin.number + number - 1,
+                                "statement '" + std::string(word) + "' of OBJ materials is left out");
+        }
+        return true;
+    });
 }
 
 }  // namespace nearlight::core

@@ -36,7 +36,7 @@ int MtlTextures::load(const MaterialLibrary& library, TextLine begin, const Text
     const int found = find_in_block(library.text, begin, "newmtl", texture.keyword, texture.name);
     const int line = found > 0 ? found : begin.number;
     const int image =
-        images_.load({.file = resolve_path(library.file, texture.name)}, rule, library.file, line);
+        images_.load({.file = find_moved_file(library.file, texture.name)}, rule, library.file, line);
     if (image < 0) {
         return -1;
     }

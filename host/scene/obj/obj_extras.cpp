@@ -51,6 +51,10 @@ uint group_of(const std::string& word) {
 }  // namespace
 
 void tidy_lines(std::string& text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) {
+        text.erase(0, kByteOrderMark.size());
+    }
     for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1)) {
         if (at + 1 == text.size() || text[at + 1] != '\n') {
             text[at] = '\n';
@@ -90,6 +94,26 @@ std::vector<SmoothingRun> smoothing_runs(std::string_view text) {
         return true;
     });
     return runs;
+}
+
+std::vector<std::size_t> mesh_starts(std::string_view text) {
+    std::vector<std::size_t> starts;
+    std::size_t faces = 0;
+    bool begins = true;
+    for_each_line(text, [&](int, std::string_view line) {
+        const std::string_view word = first_word(line);
+        if (word == "g" || word == "usemtl") {
+            begins = true;
+        } else if (starts_with_word(line, "f")) {
+            if (begins) {
+                starts.push_back(faces);
+            }
+            begins = false;
+            ++faces;
+        }
+        return true;
+    });
+    return starts;
 }
 
 std::vector<Vec3> vertex_colors(std::string_view text) {

@@ -49,11 +49,37 @@ bool has_other_elements(std::string_view text) {
     return found;
 }
 
+/// Some of the faces of a file, counted from 0.
+struct FaceRange {
+    std::size_t begin = 0;
+    std::size_t end = std::numeric_limits<std::size_t>::max();  ///< behind the last one
+};
+
+/// The faces of one mesh of the file, or all.
+FaceRange faces_of_mesh(const ObjFile& obj, std::optional<int> mesh) {
+    if (!mesh) {
+        return {};
+    }
+    const std::vector<std::size_t> starts = mesh_starts(obj.text);
+    const auto index = static_cast<std::size_t>(*mesh);
+    if (index >= starts.size()) {
+        throw Error(ErrorKind::file, obj.mesh.source.string() + ": has " + std::to_string(starts.size()) +
+                                         " meshes, which begin at g and usemtl, and no mesh with the index " +
+                                         std::to_string(*mesh));
+    }
+    FaceRange faces{.begin = starts[index]};
+    if (index + 1 < starts.size()) {
+        faces.end = starts[index + 1];
+    }
+    return faces;
+}
+
 // Takes tinyobjloader's callbacks and makes one vertex of each distinct (position, texture, normal) triple.
 class ObjBuilder {
   public:
-    ObjBuilder(ObjFile& obj, ObjUse use) : obj_(obj), use_(use) {
-        use_material("");
+    /// Of other faces than the `wanted` ones nothing is kept.
+    ObjBuilder(ObjFile& obj, ObjUse use, FaceRange wanted) : obj_(obj), use_(use), wanted_(wanted) {
+        select_group();
         if (use == ObjUse::scene) {
             colors_ = vertex_colors(obj.text);
             smoothing_runs_ = smoothing_runs(obj.text);
@@ -61,6 +87,13 @@ class ObjBuilder {
     }
 
     void add_face(const tinyobj::index_t* corners, int count) {
+        if (!is_wanted()) {
+            ++faces_;
+            return;
+        }
+        if (faces_ == wanted_.begin) {
+            select_group();  // the material may come from before these faces
+        }
         if (count < 3) {
             ++obj_.short_faces;
             ++faces_;
@@ -83,10 +116,9 @@ class ObjBuilder {
         ++faces_;
     }
     void use_material(const std::string& name) {
-        const auto [known, is_new] = groups_.try_emplace(name, static_cast<uint>(obj_.materials.size()));
-        group_ = known->second;
-        if (is_new) {
-            obj_.materials.push_back(name);
+        material_ = name;
+        if (is_wanted()) {
+            select_group();
         }
     }
     /// Faces from now on belong to this object.
@@ -107,6 +139,17 @@ class ObjBuilder {
     std::vector<std::array<float, 2>> uvs;
 
   private:
+    /// Whether the next face is.
+    [[nodiscard]] bool is_wanted() const { return faces_ >= wanted_.begin && faces_ < wanted_.end; }
+
+    /// Triangles from now on belong to the group of the current material.
+    void select_group() {
+        const auto [known, is_new] = groups_.try_emplace(material_, static_cast<uint>(obj_.materials.size()));
+        group_ = known->second;
+        if (is_new) {
+            obj_.materials.push_back(material_);
+        }
+    }
     void add_triangle(uint a, uint b, uint c) {
         obj_.mesh.triangles.push_back({a, b, c});
         obj_.mesh.groups.push_back(group_);
@@ -201,6 +244,8 @@ class ObjBuilder {
 
     ObjFile& obj_;
     ObjUse use_;
+    FaceRange wanted_;
+    std::string material_;      // what the last `usemtl` says
     std::vector<Vec3> colors_;  // of positions
     std::vector<SmoothingRun> smoothing_runs_;
     std::size_t next_run_ = 0;
@@ -245,7 +290,7 @@ tinyobj::callback_t make_callbacks() {
 
 }  // namespace
 
-ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
+ObjFile read_obj(const std::filesystem::path& file, ObjUse use, std::optional<int> mesh) {
     ObjFile obj;
     obj.mesh.source = file;
     obj.text = read_file_text(file);
@@ -257,7 +302,7 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use) {
         obj.libraries.emplace(line.number, name);
     }
     obj.has_other_elements = use == ObjUse::scene && has_other_elements(obj.text);
-    ObjBuilder builder(obj, use);
+    ObjBuilder builder(obj, use, faces_of_mesh(obj, mesh));
     TextBuffer buffer(obj.text);
     std::istream stream(&buffer);
     std::string warning;

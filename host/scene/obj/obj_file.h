@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,11 @@ struct ObjFile {
         0;  ///< faces with so many corners that they became fans though they are not convex
 };
 
-/// Reads the geometry; negative indices count back. Throws Error(ErrorKind::file) with file and line for an
-/// index out of range, and for a file without a triangle. Files may be read by several threads at once.
-ObjFile read_obj(const std::filesystem::path& file, ObjUse use);
+/// Reads the geometry; negative indices count back. With `mesh`, which is 0 or greater, reads only that one
+/// of the meshes that Mitsuba 0.5 and 0.6 make of the file (mesh_starts()), and of `materials` only those
+/// that it needs. Throws Error(ErrorKind::file) with file and line for an index out of range, for a file
+/// without a triangle, and if there is no such mesh. Files may be read by several threads at once.
+ObjFile read_obj(const std::filesystem::path& file, ObjUse use, std::optional<int> mesh = {});
 
 /// Notes what was left out of the file, if anything was.
 void note_what_is_left_out(const ObjFile& obj, NoteSink& notes);

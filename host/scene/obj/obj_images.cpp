@@ -16,7 +16,7 @@ std::vector<ImageSource> images_of(const std::vector<std::string>& names,
         for (const std::string* texture :
              {&entry.diffuse_texname, &entry.bump_texname, &entry.normal_texname, &entry.alpha_texname}) {
             if (!texture->empty()) {
-                images.push_back({.file = resolve_path(owners[i]->file, *texture)});
+                images.push_back({.file = find_moved_file(owners[i]->file, *texture)});
             }
         }
     }

@@ -75,6 +75,7 @@ class ObjMaterials {
     }
 
     void warn_of_what_is_left_out(const MaterialSource& source) {
+        note_unknown_statements(source.library, source.begin, notes_);
         if (!source.entry.displacement_texname.empty()) {
             approximate(source, "displacement maps of OBJ materials are left out");
         }
@@ -308,12 +309,28 @@ class ObjMaterials {
         if (!(d >= 0.0f && d <= 1.0f)) {
             approximate(source, "an opacity (d) lies outside 0 to 1 and is limited");
         }
-        opacity.texture = load(source, {source.entry.alpha_texname, source.entry.alpha_texopt, "map_d"},
-                               {.gamma = 1.0f, .is_number = true, .prefers_alpha = true});
+        opacity.texture = opacity_map(source);
         if (opacity.value.x == 1.0f && opacity.texture < 0) {
             return material;
         }
         return add(mask_material(opacity, material));
+    }
+
+    /// The texture of map_d, or else of map_Tr, which tinyobjloader does not know. −1 if there is none.
+    int opacity_map(const MaterialSource& source) {
+        const tinyobj::material_t& entry = source.entry;
+        const auto transparency = entry.unknown_parameter.find("map_Tr");
+        if (!entry.alpha_texname.empty() || transparency == entry.unknown_parameter.end()) {
+            return load(source, {entry.alpha_texname, entry.alpha_texopt, "map_d"},
+                        {.gamma = 1.0f, .is_number = true, .prefers_alpha = true});
+        }
+        approximate(source,
+                    "a texture of the transparency (map_Tr) counts as 1 minus its red; programs disagree");
+        std::string name;
+        tinyobj::texture_option_t options = entry.alpha_texopt;
+        tinyobj::ParseTextureNameAndOption(&name, &options, transparency->second.c_str());
+        return load(source, {name, options, "map_Tr"},
+                    {.gamma = 1.0f, .is_number = true, .channel = 0, .is_inverse = true});
     }
 
     int load(const MaterialSource& source, const TextureSource& texture, const TexelRule& rule) {

@@ -44,6 +44,12 @@ inline bool starts_with_word(std::string_view line, std::string_view word) {
            (line[word.size()] == ' ' || line[word.size()] == '\t');
 }
 
+/// The first word of a line; empty if there is none.
+inline std::string_view first_word(std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+    return line.substr(0, line.find_first_of(" \t\r"));
+}
+
 /// What follows the word in a line that starts with it.
 inline std::string value_after(std::string_view line, std::string_view word) {
     return trimmed(line.substr(line.find(word) + word.size()));
