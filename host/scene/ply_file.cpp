@@ -7,9 +7,11 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <utility>
 
+#include "host/base/half.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -21,6 +23,8 @@ PlyScalar parse_scalar(const std::filesystem::path& file, std::string_view name)
         {"uint8", PlyScalar::u8},   {"short", PlyScalar::i16},   {"int16", PlyScalar::i16},
         {"ushort", PlyScalar::u16}, {"uint16", PlyScalar::u16},  {"int", PlyScalar::i32},
         {"int32", PlyScalar::i32},  {"uint", PlyScalar::u32},    {"uint32", PlyScalar::u32},
+        {"long", PlyScalar::i64},   {"int64", PlyScalar::i64},   {"ulong", PlyScalar::u64},
+        {"uint64", PlyScalar::u64}, {"half", PlyScalar::f16},    {"float16", PlyScalar::f16},
         {"float", PlyScalar::f32},  {"float32", PlyScalar::f32}, {"double", PlyScalar::f64},
         {"float64", PlyScalar::f64}};
     for (const auto& [known, type] : kNames) {
@@ -76,6 +80,32 @@ void parse_header_line(const std::filesystem::path& file, const std::string& lin
 
 void fail_ply(const std::filesystem::path& file, const std::string& what, std::string_view setting) {
     throw Error(ErrorKind::file, file.string() + ": " + what, setting);
+}
+
+double largest_number(PlyScalar type) {
+    switch (type) {
+        case PlyScalar::i8:
+            return std::numeric_limits<std::int8_t>::max();
+        case PlyScalar::u8:
+            return std::numeric_limits<std::uint8_t>::max();
+        case PlyScalar::i16:
+            return std::numeric_limits<std::int16_t>::max();
+        case PlyScalar::u16:
+            return std::numeric_limits<std::uint16_t>::max();
+        case PlyScalar::i32:
+            return std::numeric_limits<std::int32_t>::max();
+        case PlyScalar::u32:
+            return std::numeric_limits<std::uint32_t>::max();
+        case PlyScalar::i64:
+            return static_cast<double>(std::numeric_limits<std::int64_t>::max());
+        case PlyScalar::u64:
+            return static_cast<double>(std::numeric_limits<std::uint64_t>::max());
+        case PlyScalar::f16:
+        case PlyScalar::f32:
+        case PlyScalar::f64:
+            break;
+    }
+    return 0.0;
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text) {
@@ -148,6 +178,12 @@ double PlyReader::read(PlyScalar type) {
             return read_binary<std::int32_t>();
         case PlyScalar::u32:
             return read_binary<std::uint32_t>();
+        case PlyScalar::i64:
+            return static_cast<double>(read_binary<std::int64_t>());
+        case PlyScalar::u64:
+            return static_cast<double>(read_binary<std::uint64_t>());
+        case PlyScalar::f16:
+            return static_cast<double>(half_to_float(read_binary<std::uint16_t>()));
         case PlyScalar::f32:
             return static_cast<double>(read_binary<float>());
         case PlyScalar::f64:

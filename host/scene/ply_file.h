@@ -10,8 +10,11 @@
 
 namespace nearlight::core {
 
-enum class PlyScalar { i8, u8, i16, u16, i32, u32, f32, f64 };
+enum class PlyScalar { i8, u8, i16, u16, i32, u32, i64, u64, f16, f32, f64 };
 enum class PlyFormat { ascii, little, big };
+
+/// The largest number of a type of whole numbers; 0 for the others.
+double largest_number(PlyScalar type);
 
 /// A column of a table.
 struct PlyProperty {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/ply_loader.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "host/scene/corner_uvs.h"
 #include "host/scene/file_text.h"
 #include "host/scene/ply_file.h"
 #include "host/scene/polygon.h"
@@ -14,115 +16,17 @@
 namespace nearlight::core {
 namespace {
 
-// The slot of a property, in the order x y z nx ny nz u v; −1 if it is none of them.
-int vertex_slot(std::string_view name) {
-    constexpr std::pair<std::string_view, int> kSlots[] = {
-        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
-        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
-    for (const auto& [known, slot] : kSlots) {
-        if (known == name) {
-            return slot;
-        }
-    }
-    return -1;
-}
-
-/// The slots of an attribute's channels.
-constexpr int kFirstChannel = 8;
-constexpr std::size_t kSlotCount = 11;
-/// A number for each slot, in the order of vertex_slot() and then the attribute's channels.
-using Row = std::array<float, kSlotCount>;
-
-/// Where the rows of a table keep what is asked for.
-struct Columns {
-    std::vector<int> slots;                  ///< of each property; −1 if it is skipped
-    std::array<bool, kSlotCount> present{};  ///< whether a property of a vertex has the slot
-    int channels = 0;                        ///< of the attribute: 0, 1 or 3
+/// What is looked for in a file.
+struct PlyTask {
+    std::string_view vertex_attribute;  ///< without "vertex_"; empty if the attribute is none of vertices
+    std::string_view face_attribute;    ///< without "face_"; empty if it is none of faces
+    PlyCode code = PlyCode::as_it_stands;
+    std::size_t texture_count = 0;  ///< those that the file names, if anybody wants them
+    bool has_corner_uvs = false;    ///< faces have texture coordinates for these textures
 };
 
-/// The place of a name among red, green and blue; −1 if it is none of them.
-int color_channel(std::string_view name) {
-    return name == "r" || name == "red"     ? 0
-           : name == "g" || name == "green" ? 1
-           : name == "b" || name == "blue"  ? 2
-                                            : -1;
-}
-
-bool is_channel(std::string_view name, std::string_view attribute) {
-    return name.size() == attribute.size() + 2 && name.starts_with(attribute) &&
-           name[attribute.size()] == '_' &&
-           std::string_view("xyzwrgba01234").find(name.back()) != std::string_view::npos;
-}
-
-/// The slots of a colour that is called r, g and b.
-Columns color_columns(const PlyElement& element) {
-    Columns columns{.slots = std::vector<int>(element.properties.size(), -1)};
-    std::array<bool, 3> found{};
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyProperty& property = element.properties[i];
-        const int channel = property.is_list ? -1 : color_channel(property.name);
-        if (channel >= 0) {
-            columns.slots[i] = kFirstChannel + channel;
-            found[static_cast<std::size_t>(channel)] = true;
-        }
-    }
-    columns.channels = found[0] && found[1] && found[2] ? 3 : 0;
-    return columns;
-}
-
-/// The slots of an attribute; its channels have the order of the file.
-Columns attribute_columns(const PlyElement& element, std::string_view attribute) {
-    if (attribute == "color") {
-        if (Columns columns = color_columns(element); columns.channels == 3) {
-            return columns;
-        }
-    }
-    Columns columns{.slots = std::vector<int>(element.properties.size(), -1)};
-    for (std::size_t i = 0; i < element.properties.size() && columns.channels < 3; ++i) {
-        const PlyProperty& property = element.properties[i];
-        if (!property.is_list && is_channel(property.name, attribute)) {
-            columns.slots[i] = kFirstChannel + columns.channels++;
-        }
-    }
-    columns.channels = columns.channels == 2 ? 0 : columns.channels;
-    return columns;
-}
-
-/// The slots of all that a vertex may have.
-Columns vertex_columns(const PlyElement& element, std::string_view attribute) {
-    Columns columns = attribute_columns(element, attribute);
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyProperty& property = element.properties[i];
-        int& slot = columns.slots[i];
-        slot = slot < 0 && !property.is_list ? vertex_slot(property.name) : slot;
-        if (slot >= 0) {
-            columns.present[static_cast<std::size_t>(slot)] = true;
-        }
-    }
-    return columns;
-}
-
-Row read_row(PlyReader& reader, const PlyElement& element, const Columns& columns) {
-    Row row{};
-    for (std::size_t i = 0; i < columns.slots.size(); ++i) {
-        if (columns.slots[i] < 0) {
-            reader.skip(element.properties[i]);
-        } else {
-            row[static_cast<std::size_t>(columns.slots[i])] =
-                static_cast<float>(reader.read(element.properties[i].type));
-        }
-    }
-    return row;
-}
-
-Vec3 attribute_value(const Row& row, int channels) {
-    const float first = row[kFirstChannel];
-    return channels == 1 ? Vec3{first, first, first}
-                         : Vec3{first, row[kFirstChannel + 1], row[kFirstChannel + 2]};
-}
-
-void read_vertices(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
-    const Columns columns = vertex_columns(element, attribute);
+void read_vertices(PlyReader& reader, const PlyElement& element, const PlyTask& task, Mesh& mesh) {
+    const PlyColumns columns = vertex_columns(element, task.vertex_attribute);
     const auto& present = columns.present;
     if (!present[0] || !present[1] || !present[2]) {
         fail_ply(mesh.source, "PLY vertices need x, y and z");
@@ -135,7 +39,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, std::string_vie
     mesh.uvs.reserve(has_uvs ? element.count : 0);
     mesh.colors.reserve(has_colors ? element.count : 0);
     for (std::size_t i = 0; i < element.count; ++i) {
-        const Row values = read_row(reader, element, columns);
+        const PlyRow values = read_row(reader, element, columns, task.code);
         mesh.positions.push_back({values[0], values[1], values[2]});
         if (has_normals) {
             mesh.normals.push_back({values[3], values[4], values[5]});
@@ -159,77 +63,218 @@ uint read_index(PlyReader& reader, PlyScalar type, const Mesh& mesh) {
     return static_cast<uint>(index);
 }
 
-/// Reads the list of a face's vertices and adds the face's triangles.
-void read_face(PlyReader& reader, const PlyProperty& property, Mesh& mesh) {
-    const double count = reader.read(property.count_type);
-    std::vector<uint> face;
-    std::vector<Vec3> corners;
-    for (int corner = 0; corner < count; ++corner) {
-        face.push_back(read_index(reader, property.type, mesh));
-        corners.push_back(mesh.positions[face.back()]);
+/// What a property of a face is.
+enum class FaceColumn { skipped, corners, uvs, texture, channel };
+
+FaceColumn face_column(const PlyProperty& property, int slot) {
+    if (property.is_list) {
+        return property.name == "vertex_indices" || property.name == "vertex_index" ? FaceColumn::corners
+               : property.name == "texcoord"                                        ? FaceColumn::uvs
+                                                                                    : FaceColumn::skipped;
     }
-    if (face.size() < 3) {
-        return;
-    }
-    for (const auto& [a, b, c] : triangulate(corners)) {
-        mesh.triangles.push_back({face[a], face[b], face[c]});
-    }
+    return slot >= 0                      ? FaceColumn::channel
+           : property.name == "texnumber" ? FaceColumn::texture
+                                          : FaceColumn::skipped;
 }
 
-void read_faces(PlyReader& reader, const PlyElement& element, std::string_view attribute, Mesh& mesh) {
-    const Columns columns = attribute_columns(element, attribute);
-    mesh.triangles.reserve(element.count);
-    mesh.face_colors.reserve(columns.channels == 0 ? 0 : element.count);
-    for (std::size_t i = 0; i < element.count; ++i) {
-        Row row{};
-        for (std::size_t p = 0; p < element.properties.size(); ++p) {
-            const PlyProperty& property = element.properties[p];
-            if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
-                read_face(reader, property, mesh);
-            } else if (columns.slots[p] >= 0) {
-                row[static_cast<std::size_t>(columns.slots[p])] =
-                    static_cast<float>(reader.read(property.type));
-            } else {
-                reader.skip(property);
+bool has_face_column(const PlyHeader& header, FaceColumn wanted) {
+    return std::ranges::any_of(header.elements, [&](const PlyElement& element) {
+        return element.name == "face" && std::ranges::any_of(element.properties, [&](const auto& property) {
+                   return face_column(property, -1) == wanted;
+               });
+    });
+}
+
+/// Reads faces and adds their triangles to a mesh that has its vertices.
+class PlyFaceReader {
+  public:
+    PlyFaceReader(PlyReader& reader, const PlyTask& task, Mesh& mesh)
+        : reader_(reader), task_(task), mesh_(mesh) {}
+
+    void read(const PlyElement& element) {
+        const PlyColumns columns = attribute_columns(element, task_.face_attribute);
+        mesh_.triangles.reserve(element.count);
+        mesh_.face_colors.reserve(columns.channels == 0 ? 0 : element.count);
+        for (std::size_t i = 0; i < element.count; ++i) {
+            read_face(element, columns);
+            add_triangles();
+            if (columns.channels > 0) {
+                mesh_.face_colors.resize(mesh_.triangles.size(), attribute_value(row_, columns.channels));
             }
         }
-        if (columns.channels > 0) {
-            mesh.face_colors.resize(mesh.triangles.size(), attribute_value(row, columns.channels));
+    }
+
+    /// Three for each triangle, if the task has texture coordinates of corners.
+    [[nodiscard]] const std::vector<std::array<float, 2>>& corner_uvs() const { return corner_uvs_; }
+
+  private:
+    void read_face(const PlyElement& element, const PlyColumns& columns) {
+        face_.clear();
+        corners_.clear();
+        uvs_.clear();
+        texture_ = 0.0;
+        row_ = {};
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            switch (face_column(property, columns.slots[i])) {
+                case FaceColumn::corners:
+                    read_corners(property);
+                    break;
+                case FaceColumn::uvs:
+                    read_uvs(property);
+                    break;
+                case FaceColumn::texture:
+                    texture_ = reader_.read(property.type);
+                    break;
+                case FaceColumn::channel:
+                    read_slot(reader_, property.type, columns.slots[i], task_.code, row_);
+                    break;
+                case FaceColumn::skipped:
+                    reader_.skip(property);
+                    break;
+            }
+        }
+    }
+
+    void read_corners(const PlyProperty& property) {
+        const double count = reader_.read(property.count_type);
+        for (int corner = 0; corner < count; ++corner) {
+            face_.push_back(read_index(reader_, property.type, mesh_));
+            corners_.push_back(mesh_.positions[face_.back()]);
+        }
+    }
+
+    void read_uvs(const PlyProperty& property) {
+        if (!task_.has_corner_uvs) {
+            reader_.skip(property);
+            return;
+        }
+        const double count = reader_.read(property.count_type);
+        for (double i = 0; i < count; ++i) {
+            const auto value = static_cast<float>(reader_.read(property.type));
+            uvs_.push_back(std::isfinite(value) ? value : 0.0f);
+        }
+    }
+
+    [[nodiscard]] bool has_uvs() const {
+        return task_.has_corner_uvs ? !uvs_.empty() && uvs_.size() == 2 * face_.size() : !mesh_.uvs.empty();
+    }
+
+    /// That of the face's triangles among Mesh::groups.
+    [[nodiscard]] uint group() const {
+        const bool is_known = texture_ >= 0.0 && texture_ < static_cast<double>(task_.texture_count);
+        return has_uvs() && is_known ? static_cast<uint>(texture_) + 1 : 0;
+    }
+
+    void add_triangles() {
+        if (face_.size() < 3) {
+            return;
+        }
+        for (const auto& triangle : triangulate(corners_)) {
+            mesh_.triangles.push_back({face_[triangle[0]], face_[triangle[1]], face_[triangle[2]]});
+            for (const uint corner : triangle) {
+                add_corner_uv(corner);
+            }
+        }
+        if (task_.has_corner_uvs || (task_.texture_count > 0 && !mesh_.uvs.empty())) {
+            mesh_.groups.resize(mesh_.triangles.size(), group());
+        }
+    }
+
+    void add_corner_uv(std::size_t corner) {
+        if (task_.has_corner_uvs) {
+            corner_uvs_.push_back(has_uvs() ? std::array{uvs_[2 * corner], uvs_[2 * corner + 1]}
+                                            : std::array{0.0f, 0.0f});
+        }
+    }
+
+    PlyReader& reader_;
+    const PlyTask& task_;
+    Mesh& mesh_;
+    std::vector<std::array<float, 2>> corner_uvs_;
+    // Of the present face:
+    std::vector<uint> face_;     ///< its vertices
+    std::vector<Vec3> corners_;  ///< their positions
+    std::vector<float> uvs_;     ///< u and v of each corner
+    double texture_ = 0.0;
+    PlyRow row_{};
+};
+
+/// The names behind "TextureFile" in comments.
+std::vector<std::string> texture_comments(const PlyHeader& header) {
+    constexpr std::string_view kWord = "TextureFile";
+    std::vector<std::string> names;
+    for (const std::string& comment : header.comments) {
+        const std::size_t begin = comment.find_first_not_of(" \t", kWord.size());
+        if (comment.starts_with(kWord) && begin > kWord.size() && begin != std::string::npos) {
+            names.push_back(comment.substr(begin));
+        }
+    }
+    return names;
+}
+
+void skip_element(PlyReader& reader, const PlyElement& element) {
+    for (std::size_t i = 0; i < element.count; ++i) {
+        for (const PlyProperty& property : element.properties) {
+            reader.skip(property);
         }
     }
 }
 
-}  // namespace
-
-Mesh read_ply(const std::filesystem::path& file, std::string_view attribute) {
-    const auto name_after = [attribute](std::string_view kind) {
-        return attribute.starts_with(kind) ? attribute.substr(kind.size()) : std::string_view();
-    };
-    const std::string_view of_vertices = name_after("vertex_");
-    const std::string_view of_faces = name_after("face_");
-    const std::string text = read_file_text(file);
-    const PlyHeader header = parse_ply_header(file, text);
-    PlyReader reader(file, std::string_view(text).substr(header.size), header.format);
+Mesh read_ply_mesh(const std::filesystem::path& file, std::string_view data, const PlyHeader& header,
+                   const PlyTask& task) {
+    PlyReader reader(file, data, header.format);
     Mesh mesh;
     mesh.source = file;
+    PlyFaceReader faces(reader, task, mesh);
     for (const PlyElement& element : header.elements) {
         reader.check_size_of(element);
         if (element.name == "vertex") {
-            read_vertices(reader, element, of_vertices, mesh);
+            read_vertices(reader, element, task, mesh);
         } else if (element.name == "face") {
-            read_faces(reader, element, of_faces, mesh);
+            faces.read(element);
         } else {
-            for (std::size_t i = 0; i < element.count; ++i) {
-                for (const PlyProperty& property : element.properties) {
-                    reader.skip(property);
-                }
-            }
+            skip_element(reader, element);
         }
     }
     if (mesh.triangles.empty()) {
         fail_ply(file, "has no triangles");
     }
+    if (task.has_corner_uvs) {
+        check_mesh(mesh);
+        set_corner_uvs(mesh, faces.corner_uvs());
+    }
     return mesh;
+}
+
+}  // namespace
+
+Mesh read_ply(const std::filesystem::path& file, const PlyAttribute& attribute) {
+    const auto name_after = [&](std::string_view kind) {
+        return attribute.name.starts_with(kind) ? attribute.name.substr(kind.size()) : std::string_view();
+    };
+    const std::string text = read_file_text(file);
+    const PlyHeader header = parse_ply_header(file, text);
+    return read_ply_mesh(file, std::string_view(text).substr(header.size), header,
+                         {.vertex_attribute = name_after("vertex_"),
+                          .face_attribute = name_after("face_"),
+                          .code = attribute.code});
+}
+
+PlyModel read_ply_model(const std::filesystem::path& file) {
+    const std::string text = read_file_text(file);
+    const PlyHeader header = parse_ply_header(file, text);
+    PlyModel model;
+    model.textures = texture_comments(header);
+    model.are_textures_numbered = has_face_column(header, FaceColumn::texture);
+    model.mesh = read_ply_mesh(
+        file, std::string_view(text).substr(header.size), header,
+        {.vertex_attribute = "color",
+         .face_attribute = {},
+         .code = PlyCode::display,
+         .texture_count = model.textures.size(),
+         .has_corner_uvs = !model.textures.empty() && has_face_column(header, FaceColumn::uvs)});
+    return model;
 }
 
 }  // namespace nearlight::core

@@ -55,6 +55,7 @@ def _write_meshes(folder):
     _write_ply(f'{folder}/ball.ply', *ball, with_normals=True)
     _write_ply(f'{folder}/ball_flat.ply', *ball, with_normals=False)
     _write_ply(f'{folder}/wave_colors.ply', *wave, with_normals=True, face_colors=False)
+    _write_ply(f'{folder}/wave_color_bytes.ply', *wave, with_normals=True, face_colors=False, are_bytes=True)
     _write_ply(f'{folder}/wave_face_colors.ply', *wave, with_normals=True, face_colors=True)
     _write_text(f'{folder}/curve.txt', [f'{math.cos(a) / 2:.4f} {0.3 + 0.15 * a:.4f} {math.sin(a) / 2:.4f} 0.08' for a in range(8)])
     _write_serialized(f'{folder}/meshes.serialized', [ball, wave])
@@ -70,20 +71,23 @@ def _write_obj(name, positions, normals, uv, triangles, with_normals):
     _write_text(name, lines)
 
 
-def _write_ply(name, positions, normals, uv, triangles, with_normals, face_colors=None):
-    """`face_colors` False adds a colour to each vertex, True to each face."""
+def _write_ply(name, positions, normals, uv, triangles, with_normals, face_colors=None, are_bytes=False):
+    """`face_colors` False adds a colour to each vertex, made of bytes if `are_bytes`, True adds one to each face."""
     columns = [positions] + ([normals] if with_normals else []) + [uv]
     properties = ['x', 'y', 'z'] + (['nx', 'ny', 'nz'] if with_normals else []) + ['u', 'v']
     if face_colors is False:
-        columns.append(0.5 + 0.4 * np.sin(positions * 3 + (0, 1, 2)))
-        properties += ['r', 'g', 'b']
+        colors = 0.5 + 0.4 * np.sin(positions * 3 + (0, 1, 2))
+        columns.append(np.round(255 * colors) if are_bytes else colors)
+        properties += ['red', 'green', 'blue'] if are_bytes else ['r', 'g', 'b']
     vertices = np.concatenate(columns, axis=1)
     lines = ['ply', 'format ascii 1.0', f'element vertex {len(vertices)}']
-    lines += [f'property float {p}' for p in properties]
+    is_byte = [p in ('red', 'green', 'blue') for p in properties]
+    lines += [f'property {"uchar" if b else "float"} {p}' for p, b in zip(properties, is_byte)]
     lines += [f'element face {len(triangles)}', 'property list uchar int vertex_indices']
     if face_colors:
         lines += ['property float r', 'property float g', 'property float b']
-    lines += ['end_header'] + [' '.join(f'{x:.6f}' for x in vertex) for vertex in vertices]
+    lines += ['end_header']
+    lines += [' '.join(f'{x:.0f}' if b else f'{x:.6f}' for x, b in zip(vertex, is_byte)) for vertex in vertices]
     for number, triangle in enumerate(triangles):
         color = f' {0.2 + 0.6 * (number % 3 == 0)} {0.2 + 0.6 * (number % 4 == 1)} 0.5' if face_colors else ''
         lines.append('3 ' + ' '.join(str(i) for i in triangle) + color)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
+#include <cstdint>
 #include <cstring>
+#include <utility>
 
+#include "host/base/half.h"
 #include "host/base/thread_limit.h"
 #include "host/scene/mesh.h"
 #include "host/scene/ply_loader.h"
@@ -77,6 +80,29 @@ TEST(Ply, MayHaveElementsThatSayNothing) {
     expect_square(read_ply(files.write("a.ply", start + "element foo 0\n" + rest)));
     const auto file = files.write("b.ply", start + "element foo 1\n" + rest);
     EXPECT_TRUE(mentions(file_error([&] { read_ply(file); }), "1 times 'foo'"));
+}
+
+/// The types that Mitsuba 3 reads beside those of the format.
+TEST(Ply, MayHaveHalvesAndIntegersOf64Bits) {
+    const SceneFiles files;
+    for (const bool big : {false, true}) {
+        std::string text = "ply\nformat binary_" + std::string(big ? "big" : "little") +
+                           "_endian 1.0\nelement vertex 4\nproperty half x\nproperty float16 y\n"
+                           "property float z\nproperty long s\nproperty uint64 t\nelement face 1\n"
+                           "property list ulong int64 vertex_indices\nend_header\n";
+        for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            put(text, float_to_half(static_cast<float>(x)), big);
+            put(text, float_to_half(static_cast<float>(y)), big);
+            put(text, 0.0f, big);
+            put(text, std::int64_t{x}, big);
+            put(text, static_cast<std::uint64_t>(y), big);
+        }
+        put(text, std::uint64_t{4}, big);
+        for (const std::int64_t index : {0, 1, 2, 3}) {
+            put(text, index, big);
+        }
+        expect_square(read_ply(files.write("w.ply", text)));
+    }
 }
 
 TEST(Ply, EveryTruncationIsAnError) {

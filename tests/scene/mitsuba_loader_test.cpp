@@ -102,6 +102,41 @@ TEST(MitsubaTransform, RotatesAboutAnAxisAsItsVersionDoes) {
     expect_near(corner_of("0.6.0", longer), {static_cast<float>(2 * c), 2 * r, -2 * r});
 }
 
+/// The axes of Mitsuba's functions coordinate_system() and, in 0.6, coordinateSystem().
+TEST(MitsubaTransform, LookatWithoutAnUpTakesTheAxisOfItsVersion) {
+    const SceneFiles files;
+    const auto up_of = [&](const std::string& version, const std::string& up) {
+        const Scene scene = load_scene(
+            files.write("scene.xml", "<scene version='" + version + "'><sensor type='perspective'>" +
+                                         to_world("<lookat origin='0,0,0' target='2,0,0'" + up + "/>") +
+                                         "</sensor></scene>"));
+        expect_near(transform_vector(scene.camera.to_world, {0, 0, 1}), {1, 0, 0});
+        return transform_vector(scene.camera.to_world, {0, 1, 0});
+    };
+    for (const char* up : {"", " up=''", " up='0,0,0'"}) {
+        expect_near(up_of("3.0.0", up), {0, 0, -1});
+        expect_near(up_of("0.6.0", up), {0, -1, 0});
+    }
+    const std::string parallel = "<lookat origin='0,0,0' target='2,0,0' up='1,0,0'/>";
+    EXPECT_TRUE(mentions(file_error([&] { files.load_xml(shape("cube", to_world(parallel))); }),
+                         "scene.xml:2: the up vector of lookat is parallel to the line of sight"));
+}
+
+TEST(MitsubaTransform, OneNumberStandsForThree) {
+    const SceneFiles files;
+    const Scene scene =
+        files.load_xml(shape("rectangle", to_world("<translate value='1'/><scale value='2'/>")) +
+                       "<emitter type='point'><point name='position' value='3'/></emitter>"
+                       "<emitter type='directional'><vector name='direction' value='-1'/></emitter>");
+    expect_near(scene.vertices.at(0).position, {0, 0, 2});  // the corner (−1, −1, 0)
+    ASSERT_EQ(scene.delta_emitters.size(), 2u);
+    expect_near(scene.delta_emitters[0].position, {3, 3, 3});
+    expect_near(scene.delta_emitters[1].direction, Vec3{1, 1, 1} * -std::sqrt(1 / 3.0f));
+    EXPECT_TRUE(
+        mentions(file_error([&] { files.load_xml(shape("cube", to_world("<translate value='1,2'/>"))); }),
+                 "'1,2' should be three numbers"));
+}
+
 TEST(MitsubaEmitter, SpotTextureProjectorAndDirectional) {
     const SceneFiles files;
     write_image(files.path("wide.exr"), make_image(4, 2, {"R", "G", "B"}));
@@ -198,6 +233,20 @@ TEST(MitsubaEmitter, AnAreaLightMayStandBesideItsShape) {
         EXPECT_FALSE(has_note(scene, "area light"));
     }
     EXPECT_TRUE(has_note(files.load_xml(shape("rectangle", "") + light), "no shape has this area light"));
+}
+
+TEST(MitsubaEmitter, AnAreaLightWithoutARadianceHasOne) {
+    const SceneFiles files;
+    const Scene scene = files.load_xml(shape("rectangle", "<emitter type='area'/>"));
+    expect_near(scene.materials[scene.triangles.at(0).material].emission.value, {1, 1, 1});
+}
+
+TEST(MitsubaXml, ADollarMayBeEscaped) {
+    const SceneFiles files;
+    const LoadOptions options{.parameters = {{"folder", "a\\"}}};
+    const Scene scene =
+        files.load_xml("<shape type='rectangle' id='\\$5 of $folder$folder\\$folder'/>", options);
+    EXPECT_EQ(scene.object_names.at(0), "$5 of a\\a\\$folder");
 }
 
 TEST(MitsubaXml, DefaultsOverridesAndIncludes) {

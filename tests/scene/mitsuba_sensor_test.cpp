@@ -129,6 +129,26 @@ TEST(MitsubaFilm, LuminanceIsMonochromeAndOtherFormatsAreRefused) {
     EXPECT_TRUE(mentions(file_error([&] { load("xyz"); }), "pixel_format 'xyz' is not supported"));
 }
 
+/// Radiance is the same; only PNG pictures look otherwise, and how they do is the command line's.
+TEST(MitsubaFilm, TheLookOfAnLdrfilmIsLeftOutWithANote) {
+    const SceneFiles files;
+    const auto notes = [&](const std::string& body, const std::string& type = "ldrfilm") {
+        return files.load_xml(sensor("<film type='" + type + "'>" + body + "</film>"));
+    };
+    const std::string reinhard = "<string name='tonemapMethod' value='Reinhard'/>";
+    EXPECT_TRUE(has_note(notes(number("exposure", "1.5")),
+                         "scene.xml:2: the film's exposure '1.5' is left out; PNG pictures have it with "
+                         "--exposure 1.5"));
+    EXPECT_TRUE(has_note(notes(reinhard + number("exposure", "1.5")),
+                         "the film's tonemap_method 'reinhard' is left out; --exposure and --tonemap"));
+    EXPECT_TRUE(has_note(notes(number("gamma", "1.8")), "the film's gamma '1.8' is left out"));
+    const std::string plain = number("exposure", "0") + "<string name='tonemapMethod' value='gamma'/>";
+    for (const char* gamma : {"-1", "2.2"}) {
+        EXPECT_FALSE(has_note(notes(plain + number("gamma", gamma)), "left out"));
+    }
+    EXPECT_FALSE(has_note(notes(number("exposure", "1.5"), "hdrfilm"), "left out"));
+}
+
 TEST(MitsubaIntegrator, NamesDecideTheDepth) {
     const SceneFiles files;
     const auto load = [&](const std::string& type, const std::string& body = "") {

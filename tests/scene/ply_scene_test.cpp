@@ -2,7 +2,9 @@
 // PLY files as whole scenes.
 #include <gtest/gtest.h>
 
+#include "host/image/image_io.h"
 #include "host/scene/places.h"
+#include "host/scene/texture.h"
 #include "tests/scene/scene_files.h"
 
 namespace nearlight::core {
@@ -42,8 +44,137 @@ TEST(PlyScene, ColoursOfVerticesAreSrgb) {
         return scene.vertex_colors.at(0);
     };
     expect_near(first_color("uchar", "255 128 0"), {1, 0.2158605f, 0}, 1e-4f);
+    expect_near(first_color("ushort", "65535 32896 0"), {1, 0.2158605f, 0}, 1e-4f);
+    expect_near(first_color("int", "255 128 0"), {1, 0.2158605f, 0}, 1e-4f);
+    expect_near(first_color("uchar", "1 1 0"), Vec3{1, 1, 0} / (255 * 12.92f), 1e-6f);
     expect_near(first_color("float", "1 0.5 0"), {1, 0.2140411f, 0}, 1e-4f);
     EXPECT_GT(first_color("float", "1.001 0.5 0").y, 0.2f) << "a little over 1 makes no bytes of them";
+}
+
+/// Writes an image of a left and a right texel, as an sRGB-encoded file has them: grey 0.25 and 0.75 before
+/// they are encoded.
+void write_scan(const SceneFiles& files, const std::string& name, float left = 0.25f, float right = 0.75f) {
+    write_image(files.path(name), {2, 1, {"R", "G", "B"}, {left, left, left, right, right, right}});
+}
+
+/// The red that the surface of a triangle has at a corner.
+float red_at(const Scene& scene, std::size_t triangle, std::size_t corner) {
+    const Triangle& t = scene.triangles.at(triangle);
+    const Vertex& vertex = scene.vertices.at(corner == 0 ? t.v0 : corner == 1 ? t.v1 : t.v2);
+    const Parameter& reflectance = scene.materials.at(scene.materials.at(t.material).child[0]).reflectance;
+    return parameter_value(scene, reflectance, vertex.u, vertex.v).x;
+}
+
+TEST(PlyScene, ATextureThatACommentNamesIsOnTheSurface) {
+    const SceneFiles files;
+    write_scan(files, "my scan.png");
+    std::string header = kHeader;
+    header.insert(header.find("element"), "comment made by hand\ncomment TextureFile my scan.png\n");
+    for (const std::string names : {"s t", "u v", "texture_u texture_v"}) {
+        const std::string uv = "property float " + names.substr(0, names.find(' ')) + "\nproperty float " +
+                               names.substr(names.find(' ') + 1) + "\n";
+        const Scene scene = load_scene(files.write(
+            "t.ply", header + uv + kFace + "0 0 0 0.25 0.5\n1 0 0 0.75 0.5\n0 1 0 0.5 0.5\n3 0 1 2\n"));
+        ASSERT_EQ(scene.images.size(), 1u);
+        EXPECT_EQ(scene.images[0].format, NEARLIGHT_TEXELS_SRGB8);
+        EXPECT_NEAR(red_at(scene, 0, 0), 0.25f, 0.01f);
+        EXPECT_NEAR(red_at(scene, 0, 1), 0.75f, 0.01f);
+        EXPECT_NEAR(red_at(scene, 0, 2), 0.5f, 0.01f) << "between texels";
+        EXPECT_FALSE(has_note(scene, "texture"));
+    }
+    const Scene bare = load_scene(files.write("b.ply", header + kFace + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+    EXPECT_TRUE(has_note(bare, "b.ply: the texture 'my scan.png' is left out, because the file has no"));
+    EXPECT_TRUE(bare.images.empty());
+}
+
+/// Two triangles with an edge in common, as MeshLab writes their texture coordinates.
+std::string wedge_header(const std::string& comments, const std::string& more = "") {
+    return "ply\nformat ascii 1.0\n" + comments +
+           "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + more +
+           "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n";
+}
+const std::string kScan = "comment TextureFile scan.png\n";
+const std::string kWedgeVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const std::string kLeftFace = "3 0 1 2 6 0.25 0 0.25 1 0.25 0.5";
+const std::string kRightFace = "3 0 2 3 6 0.75 0 0.75 1 0.75 0.5";
+
+TEST(PlyScene, CornersOfFacesMayHaveTextureCoordinatesOfTheirOwn) {
+    const SceneFiles files;
+    write_scan(files, "scan.png");
+    const Scene scene =
+        load_scene(files.write("w.ply", wedge_header(kScan) + "end_header\n" + kWedgeVertices + kLeftFace +
+                                            "\n" + kRightFace + "\n"));
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    EXPECT_EQ(scene.vertices.size(), 6u);
+    const std::array<std::array<Vec3, 3>, 2> places{
+        {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}};
+    for (std::size_t triangle = 0; triangle < 2; ++triangle) {
+        const Triangle& t = scene.triangles[triangle];
+        const std::array vertices{t.v0, t.v1, t.v2};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            EXPECT_NEAR(red_at(scene, triangle, corner), triangle == 0 ? 0.25f : 0.75f, 0.01f);
+            expect_near(scene.vertices[vertices[corner]].position, places[triangle][corner]);
+            expect_near(scene.vertices[vertices[corner]].normal, {0, 0, 1});
+        }
+        EXPECT_EQ(scene.vertices[t.v1].v, 1.0f);
+    }
+    EXPECT_FALSE(has_note(scene, "texture"));
+    // Where corners agree, their triangles go on sharing a vertex.
+    const Scene shared =
+        load_scene(files.write("s.ply", wedge_header(kScan) + "end_header\n" + kWedgeVertices +
+                                            "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 1 1 0 1\n"));
+    EXPECT_EQ(shared.vertices.size(), 4u);
+}
+
+TEST(PlyScene, FacesMayHaveDifferentTextures) {
+    const SceneFiles files;
+    write_scan(files, "scan.png");
+    write_scan(files, "dark.png", 0.125f, 0.125f);
+    const std::string both = kScan + "comment TextureFile dark.png\n";
+    const std::string numbered = wedge_header(both) + "property int texnumber\nend_header\n" + kWedgeVertices;
+    const Scene scene = load_scene(files.write("n.ply", numbered + kLeftFace + " 0\n" + kRightFace + " 1\n"));
+    EXPECT_EQ(scene.images.size(), 2u);
+    EXPECT_NEAR(red_at(scene, 0, 0), 0.25f, 0.01f);
+    EXPECT_NEAR(red_at(scene, 1, 0), 0.125f, 0.01f);
+    EXPECT_FALSE(has_note(scene, "texture"));
+    for (const std::string& second :
+         {kRightFace + " -1\n", kRightFace + " 2\n", std::string("3 0 2 3 0 0\n")}) {
+        const Scene part = load_scene(files.write("p.ply", numbered + kLeftFace + " 0\n" + second));
+        EXPECT_NEAR(red_at(part, 0, 0), 0.25f, 0.01f);
+        EXPECT_FLOAT_EQ(red_at(part, 1, 0), 0.5f) << "grey without a texture";
+        EXPECT_EQ(part.images.size(), 1u);
+    }
+    const Scene unnumbered =
+        load_scene(files.write("u.ply", wedge_header(both) + "end_header\n" + kWedgeVertices + kLeftFace +
+                                            "\n" + kRightFace + "\n"));
+    EXPECT_NEAR(red_at(unnumbered, 1, 0), 0.75f, 0.01f);
+    EXPECT_TRUE(has_note(unnumbered, "names 2 textures, but its faces do not say which one they have"));
+}
+
+TEST(PlyScene, ATextureThatCannotBeReadIsNoted) {
+    const SceneFiles files;
+    const std::string faces = kLeftFace + "\n" + kRightFace + "\n";
+    const auto grey = files.write("g.ply", wedge_header(kScan) + "end_header\n" + kWedgeVertices + faces);
+    EXPECT_TRUE(
+        has_note(load_scene(grey), "g.ply: texture is replaced by mid-grey because it cannot be read"));
+    EXPECT_FLOAT_EQ(red_at(load_scene(grey), 0, 0), 0.5f);
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(grey, {.strict = true}); }), "scan.png"));
+    std::string channels;
+    for (const char* channel : {"red", "green", "blue"}) {
+        channels += "property uchar " + std::string(channel) + "\n";
+    }
+    const auto colored = files.write("c.ply", wedge_header(kScan, channels) +
+                                                  "end_header\n0 0 0 255 0 0\n1 0 0 255 0 0\n"
+                                                  "1 1 0 255 0 0\n0 1 0 255 0 0\n" +
+                                                  faces);
+    const Scene colors = load_scene(colored);
+    EXPECT_TRUE(has_note(colors, "the colours of vertices are used in its place"));
+    expect_near(colors.vertex_colors.at(0), {1, 0, 0});
+    write_scan(files, "scan.png");
+    const Scene both = load_scene(colored);
+    EXPECT_TRUE(has_note(both, "a texture and colours of vertices"));
+    EXPECT_NEAR(red_at(both, 0, 0), 0.25f, 0.01f);
+    EXPECT_TRUE(both.vertex_colors.empty());
 }
 
 TEST(PlyScene, PolygonsThatAreNotConvexAreNotFilled) {

@@ -123,6 +123,52 @@ TEST(VertexColors, HaveTheOrderOfTheirNames) {
     }
 }
 
+/// Mitsuba 3 expects numbers from 0 to 1, and warns of integers, but takes them as they are.
+TEST(VertexColors, OfIntegerTypesCountAsTheyStand) {
+    const SceneFiles files;
+    for (const char* type : {"uchar", "ushort", "float"}) {
+        files.write("mesh.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                    "property float z\nproperty " +
+                        std::string(type) +
+                        " heat_0\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                        "0 0 0 128\n1 0 0 128\n0 1 0 128\n3 0 1 2\n");
+        const Scene scene = files.load_xml(shape(
+            "ply", kPly + "<bsdf type='diffuse'>" + attribute("reflectance", "vertex_heat") + "</bsdf>"));
+        expect_near(scene.vertex_colors.at(0), Vec3{128, 128, 128});
+    }
+}
+
+/// Its property `srgb`, which is true unless the file says otherwise, holds for all colours.
+TEST(VertexColors, OfMitsuba06AreSrgbUnlessTheShapeSaysOtherwise) {
+    const SceneFiles files;
+    const auto color = [&](const std::string& type, const std::string& numbers, const std::string& srgb) {
+        std::string channels;
+        for (const char* channel : {"red", "green", "blue"}) {
+            channels += "property " + type + " " + channel + "\n";
+        }
+        files.write("mesh.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                    "property float z\n" +
+                        channels +
+                        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " +
+                        numbers + "\n1 0 0 " + numbers + "\n0 1 0 " + numbers + "\n3 0 1 2\n");
+        const Scene scene = load_scene(
+            files.write("old.xml", "<scene version='0.6.0'>" +
+                                       shape("ply", kPly + srgb +
+                                                        "<bsdf type='diffuse'><texture type='vertexcolors' "
+                                                        "name='reflectance'/></bsdf>") +
+                                       "</scene>"));
+        EXPECT_FALSE(has_note(scene, "ignored"));
+        return scene.vertex_colors.at(0);
+    };
+    const std::string is_linear = "<boolean name='srgb' value='false'/>";
+    expect_near(color("uchar", "255 128 0", ""), {1, 0.2158605f, 0});
+    expect_near(color("float", "1 0.5 0", ""), {1, 0.2140411f, 0});
+    expect_near(color("uchar", "255 51 0", is_linear), {1, 0.2f, 0});
+    expect_near(color("float", "1 0.5 0", is_linear), {1, 0.5f, 0});
+}
+
 TEST(VertexColors, TwoAttributesOfAMeshAreRefused) {
     const SceneFiles files;
     write_attributes(files);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mitsuba/film_maker.h"
 
+#include <cmath>
+#include <sstream>
+
 #include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {
@@ -71,6 +74,30 @@ PixelFilter make_filter(const Object& object, NoteSink& notes) {
     return filter;
 }
 
+/// Notes what an ldrfilm of Mitsuba 0.5 and 0.6 does to the numbers of its pictures beside sRGB.
+void note_look(const Object& film, NoteSink& notes) {
+    const auto leave_out = [&](const char* name, const std::string& value, const std::string& advice) {
+        note(notes, film.find(name)->where,
+             "the film's " + std::string(name) + " '" + value + "' is left out; " + advice);
+    };
+    const auto text_of = [](double number) {
+        std::ostringstream text;
+        text << number;
+        return text.str();
+    };
+    const double exposure = film.number("exposure", 0.0);
+    if (const std::string method = lower_case(film.string("tonemap_method", "gamma")); method != "gamma") {
+        leave_out("tonemap_method", method, "--exposure and --tonemap choose the look of PNG pictures");
+    } else if (exposure != 0.0) {
+        leave_out("exposure", text_of(exposure), "PNG pictures have it with --exposure " + text_of(exposure));
+    }
+    // Nobody sees the difference between a gamma of 2.2 and sRGB, which −1 stands for.
+    const double gamma = film.number("gamma", -1.0);
+    if (gamma != -1.0 && std::abs(gamma - 2.2) > 0.01) {
+        leave_out("gamma", text_of(gamma), "PNG pictures are sRGB; --tonemap chooses their tone curve");
+    }
+}
+
 }  // namespace
 
 int whole_number(const Object& object, const char* name, int fallback, int low, int high) {
@@ -97,6 +124,9 @@ FilmSize apply_film(const Object& film, SceneCamera& camera, NoteSink& notes) {
     }
     if (!filters.empty()) {
         camera.filter = make_filter(*filters.front(), notes);
+    }
+    if (film.type == "ldrfilm") {
+        note_look(film, notes);
     }
     // These say how Mitsuba writes its files.
     film.ignore({"file_format", "component_format", "banner", "compensate", "attach_log", "gamma", "exposure",

@@ -25,18 +25,35 @@ constexpr int kMaxAhead = 8;
 struct MeshSource {
     std::filesystem::path file;
     std::string type;
-    int index = 0;          ///< among the meshes of a serialized file
-    std::string attribute;  ///< which textures look up
+    /// Among the meshes of the file. Empty: the first one of a serialized file, or all of an OBJ file.
+    std::optional<int> index{};
+    std::string attribute;                  ///< which textures look up
+    PlyCode color_code = PlyCode::as_it_stands;  ///< of a PLY file
     /// Normals are made anew, with creases where faces meet at a greater angle; empty if those of the file
     /// count.
     std::optional<float> max_smooth_degrees{};
 };
 
-// Which of the meshes of a file the shape is.
-int shape_index(const Object& shape) {
-    const double index = shape.number("shape_index", 0.0);
+/// Which of the meshes of a file the shape is. Only Mitsuba 0.5 and 0.6 choose among those of OBJ files,
+/// where negative numbers stand for all of them. An index stands for one mesh, as their manual says, although
+/// they load the last mesh with the one before it.
+std::optional<int> shape_index(const Object& shape) {
+    const bool is_obj = shape.type == "obj";
+    if ((!is_obj || !shape.is_old) && shape.type != "serialized") {
+        return std::nullopt;
+    }
+    const double index = shape.number("shape_index", is_obj ? -1.0 : 0.0);
+    if (is_obj && index < 0.0) {
+        return std::nullopt;
+    }
     if (!(index >= 0.0 && index < 1e9)) {
         fail(shape.where, "'shape_index' should be 0 or greater");
+    }
+    if (is_obj && shape.boolean("collapse", false)) {
+        if (index > 0.0) {
+            fail(shape.where, "'collapse' makes one mesh of the file, so that 'shape_index' should be 0");
+        }
+        return std::nullopt;
     }
     return static_cast<int>(index);
 }
@@ -56,24 +73,33 @@ std::optional<float> max_smooth_degrees(const Object& shape) {
     return static_cast<float>(degrees);
 }
 
+// Mitsuba 0.5 and 0.6 take all colours of PLY files for sRGB, also floats, unless the shape says otherwise.
+PlyCode ply_color_code(const Object& shape) {
+    if (shape.type != "ply" || !shape.is_old) {
+        return PlyCode::as_it_stands;
+    }
+    return shape.boolean("srgb", true) ? PlyCode::srgb : PlyCode::linear;
+}
+
 MeshSource source_of(const Object& shape) {
     return {.file = shape.required_string("filename"),
             .type = shape.type,
-            .index = shape.type == "serialized" ? shape_index(shape) : 0,
+            .index = shape_index(shape),
             .attribute = mesh_attribute_of(shape),
+            .color_code = ply_color_code(shape),
             .max_smooth_degrees = max_smooth_degrees(shape)};
 }
 
 MeshFile read_file(const MeshSource& source) {
     MeshFile file;
     if (source.type == "ply") {
-        file.mesh = read_ply(source.file, source.attribute);
+        file.mesh = read_ply(source.file, {.name = source.attribute, .code = source.color_code});
         return file;
     }
     if (source.type == "obj") {
-        file = read_obj(source.file, ObjUse::mitsuba_shape);
+        file = read_obj(source.file, ObjUse::mitsuba_shape, source.index);
     } else {
-        file.mesh = read_serialized(source.file, source.index);
+        file.mesh = read_serialized(source.file, source.index.value_or(0));
     }
     if (source.attribute != kVertexColor) {
         file.mesh.colors.clear();
@@ -96,7 +122,7 @@ MeshFile read_source(const MeshSource& source) {
 bool can_be_ahead(const Object& shape) {
     const Property* const file = shape.find("filename");
     return shape.type == "obj" && file != nullptr && std::holds_alternative<std::string>(file->value) &&
-           !shape.has("max_smooth_angle");
+           !shape.has("max_smooth_angle") && !shape.has("shape_index");
 }
 
 }  // namespace

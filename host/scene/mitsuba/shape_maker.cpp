@@ -164,7 +164,9 @@ std::vector<uint> ShapeMaker::materials_by_name(const Object& shape, const ObjFi
         const auto is_its = [&](const std::string& name) { return snake_case(name) == bsdf->name; };
         const auto found = std::ranges::find_if(file.materials, is_its);
         if (found == file.materials.end()) {
-            note(notes_, bsdf->where, "the OBJ file has no material '" + bsdf->name + "'");
+            note(notes_, bsdf->where,
+                 (shape.has("shape_index") ? "this mesh of the OBJ file" : "the OBJ file") +
+                     std::string(" has no material '") + bsdf->name + "'");
         } else {
             materials[static_cast<std::size_t>(found - file.materials.begin())] =
                 materials_.index(bsdf->object, emitted);
@@ -201,7 +203,7 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
             scene_.round_lamps.push_back(*lamp);
         }
     }
-    shape.ignore({"collapse", "shape_index", "load_materials"});
+    shape.ignore({"collapse", "load_materials"});
     shape.report_unused(notes_);
 }
 
@@ -271,9 +273,6 @@ Parameter ShapeMaker::emission(const Object& shape) {
     const Object& emitter = *emitters.front();
     if (emitter.type != "area") {
         fail_unknown_type(emitter, "area (within a shape)");
-    }
-    if (!emitter.has("radiance") && emitter.texture("radiance") == nullptr) {
-        fail(emitter.where, "an area light needs 'radiance'");
     }
     emitter.ignore({"sampling_weight"});
     const Parameter radiance = textures_.emission(emitter, "radiance", {1, 1, 1});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <string_view>
 
 #include "host/scene/file_text.h"
 #include "host/scene/mitsuba/values.h"
@@ -47,24 +49,36 @@ Location XmlFile::location(std::ptrdiff_t offset) const {
 }
 
 std::string Element::text(const char* attribute) const {
-    std::string value = node.attribute(attribute).value();
-    for (std::size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
-        std::size_t end = at + 1;
-        while (end < value.size() &&
-               (std::isalnum(static_cast<unsigned char>(value[end])) || value[end] == '_')) {
-            ++end;
+    const std::string written = node.attribute(attribute).value();
+    std::string value;
+    for (std::size_t at = 0; at < written.size();) {
+        if (written.compare(at, 2, "\\$") == 0) {
+            value += '$';
+            at += 2;
+        } else if (written[at] == '$') {
+            const auto definition = definition_at(written, at + 1);
+            value += definition->second.value;
+            at += 1 + definition->first.size();
+        } else {
+            value += written[at++];
         }
-        const std::string word = value.substr(at + 1, end - at - 1);
-        const auto found = longest_beginning(definitions, word);
-        if (found == definitions.end()) {
-            fail(where, "parameter '$" + word + "' has no value; give it one with -D " + word +
-                            "=VALUE, or with a <default>");
-        }
-        found->second.is_used = true;
-        value.replace(at, 1 + found->first.size(), found->second.value);
-        at += found->second.value.size();
     }
     return value;
+}
+
+Definitions::const_iterator Element::definition_at(const std::string& line, std::size_t begin) const {
+    std::size_t end = begin;
+    while (end < line.size() && (std::isalnum(static_cast<unsigned char>(line[end])) || line[end] == '_')) {
+        ++end;
+    }
+    const std::string word = line.substr(begin, end - begin);
+    const auto found = longest_beginning(definitions, word);
+    if (found == definitions.end()) {
+        fail(where, "parameter '$" + word + "' has no value; give it one with -D " + word +
+                        "=VALUE, or with a <default>; write \\$ for a dollar");
+    }
+    found->second.is_used = true;
+    return found;
 }
 
 std::string Element::required(const char* attribute) const {
@@ -78,12 +92,12 @@ double Element::number(const char* attribute, double fallback) const {
     return has(attribute) ? parse_number(text(attribute), where) : fallback;
 }
 
-Triple Element::triple(const char* list, double fallback, bool single) const {
+Triple Element::triple(const char* list, double fallback) const {
     if (!has(list)) {
         return {number("x", fallback), number("y", fallback), number("z", fallback)};
     }
     const std::vector<double> numbers = parse_numbers(text(list), where);
-    if (numbers.size() == 1 && single) {
+    if (numbers.size() == 1 && list == std::string_view("value")) {
         return {numbers[0], numbers[0], numbers[0]};
     }
     if (numbers.size() != 3) {
@@ -109,22 +123,34 @@ Mat4 read_matrix(const Element& element) {
     return matrix;
 }
 
+Vec3 vec3_of(const Triple& t) {
+    return {static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])};
+}
+
+/// What is up where a lookat does not say it: an axis across the line of sight, which each version of Mitsuba
+/// chooses in its own way.
+Vec3 axis_across(Vec3 forward, bool is_old) {
+    if (!is_old) {
+        return orthonormal_basis(normalize(forward))[0];
+    }
+    const bool is_more_x = std::abs(forward.x) > std::abs(forward.y);
+    const Vec3 side = is_more_x ? Vec3{forward.z, 0, -forward.x} : Vec3{0, forward.z, -forward.y};
+    return cross(side, forward);
+}
+
 Mat4 read_lookat(const Element& element) {
-    const Triple origin = element.triple("origin", 0.0, false);
-    const Triple target = element.triple("target", 0.0, false);
-    const Vec3 forward{static_cast<float>(target[0] - origin[0]), static_cast<float>(target[1] - origin[1]),
-                       static_cast<float>(target[2] - origin[2])};
+    const Triple origin = element.triple("origin", 0.0);
+    const Triple target = element.triple("target", 0.0);
+    const Vec3 forward = vec3_of({target[0] - origin[0], target[1] - origin[1], target[2] - origin[2]});
     if (is_zero(forward)) {
         fail(element.where, "the origin and the target of lookat are the same");
     }
-    if (!element.has("up")) {
-        const auto basis = orthonormal_basis(normalize(forward));
-        return look_at(origin, target, {basis[1].x, basis[1].y, basis[1].z});
+    const Triple up = element.text("up").empty() ? Triple{} : element.triple("up", 0.0);
+    if (up == Triple{}) {
+        const Vec3 axis = axis_across(forward, element.is_old);
+        return look_at(origin, target, {axis.x, axis.y, axis.z});
     }
-    const Triple up = element.triple("up", 0.0, false);
-    const Vec3 side =
-        cross({static_cast<float>(up[0]), static_cast<float>(up[1]), static_cast<float>(up[2])}, forward);
-    if (length(side) <= 1e-7f * length(forward)) {
+    if (length(cross(vec3_of(up), forward)) <= 1e-7f * length(forward)) {
         fail(element.where, "the up vector of lookat is parallel to the line of sight");
     }
     return look_at(origin, target, up);
@@ -133,7 +159,7 @@ Mat4 read_lookat(const Element& element) {
 // Mitsuba 0.5 and 0.6 turn about an axis of any length. Mitsuba 2 and 3 put it into Rodrigues' formula as it
 // stands, so that the same element also stretches if the axis is not of length 1.
 Mat4 read_rotation(const Element& element) {
-    const Triple axis = element.triple("value", 0.0, false);
+    const Triple axis = element.triple("value", 0.0);
     const double angle = element.number("angle", 0.0);
     if (axis == Triple{0, 0, 0}) {
         if (angle == 0.0) {
@@ -154,11 +180,11 @@ Mat4 read_operation(const Element& element) {
         return read_lookat(element);
     }
     if (name == "translate") {
-        const Triple t = element.triple("value", 0.0, false);
+        const Triple t = element.triple("value", 0.0);
         return translation(t[0], t[1], t[2]);
     }
     if (name == "scale") {
-        const Triple s = element.triple("value", 1.0, true);
+        const Triple s = element.triple("value", 1.0);
         return scaling(s[0], s[1], s[2]);
     }
     if (name == "rotate") {

@@ -51,13 +51,18 @@ struct Element {
     bool is_old = false;  ///< the file is one of Mitsuba 0.5 or 0.6
 
     [[nodiscard]] bool has(const char* attribute) const { return !node.attribute(attribute).empty(); }
-    /// The text of an attribute; "" if there is no such attribute. Calls fail() for an undefined $name.
+    /// The text of an attribute, where \$ stands for a dollar; "" if there is no such attribute. Calls fail()
+    /// for an undefined $name.
     [[nodiscard]] std::string text(const char* attribute) const;
     [[nodiscard]] std::string required(const char* attribute) const;
     [[nodiscard]] double number(const char* attribute, double fallback) const;
-    /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. If `single`, one
-    /// number stands for all three.
-    [[nodiscard]] Triple triple(const char* list, double fallback, bool single) const;
+    /// Three numbers: "x,y,z" in the attribute called `list`, or the attributes x, y and z. In an attribute
+    /// "value", one number stands for all three.
+    [[nodiscard]] Triple triple(const char* list, double fallback) const;
+
+  private:
+    /// The parameter whose name begins there, after its dollar.
+    [[nodiscard]] Definitions::const_iterator definition_at(const std::string& line, std::size_t begin) const;
 };
 
 /// Reads a <transform>. Its operations apply in order of appearance: each is multiplied from the left.

@@ -193,7 +193,7 @@ class Reader {
             return read_spectrum_value(element);
         }
         if (tag == "point" || tag == "vector") {
-            return element.triple("value", 0.0, false);
+            return element.triple("value", 0.0);
         }
         if (tag == "transform") {
             return read_transform(file, element);

@@ -61,6 +61,7 @@ def _others():
         'mesh-attribute-vertex': _on_mesh('wave_colors.ply', texture('mesh_attribute', name_property('vertex_color'))),
         'mesh-attribute-vertex-scaled': _on_mesh('wave_colors.ply',
             texture('mesh_attribute', name_property('vertex_color'), scale=0.5)),
+        'mesh-attribute-vertex-bytes': _on_mesh('wave_color_bytes.ply', texture('mesh_attribute', name_property('vertex_color'))),
         'mesh-attribute-face': _on_mesh('wave_face_colors.ply', texture('mesh_attribute', name_property('face_color'))),
         'reference-by-id': scene(with_id('paint', bitmap('tiles.png')),
             with_id('painted', bsdf('diffuse', reflectance=ref('paint'))), floor(), wall(),
