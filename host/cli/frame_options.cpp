@@ -68,7 +68,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
     needs_frames(command.add_flag("--skip-existing", options.skip_existing,
                                   "Leave out frames of which all files are there"));
     // These belong to one picture.
-    for (const char* option : {"--checkpoint", "--first-pass", "--save-vpls"}) {
+    for (const char* option : {"--checkpoint", "--checkpoint-every", "--first-pass", "--save-vpls"}) {
         frames->excludes(command.get_option(option));
     }
 }

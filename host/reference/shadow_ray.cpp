@@ -35,8 +35,9 @@ ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 positio
             return {};
         }
         // Here a ray would start that left the veil's other side.
-        t_min = hit.t +
-                ray_epsilon(surface.position, extent) / std::abs(dot(surface.geometric_normal, direction));
+        const float cosine = std::abs(dot(surface.geometric_normal, direction));
+        t_min =
+            hit.t + ray_epsilon(surface.position, extent) / std::max(cosine, NEARLIGHT_MIN_GRAZING_COSINE);
     }
 }
 

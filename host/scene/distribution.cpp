@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
@@ -24,6 +27,12 @@ std::vector<float> cumulative_distribution(std::span<const double> weights) {
     if (uniform) {
         total = static_cast<double>(weights.size());
         positive = weights.size();
+    }
+    if (static_cast<double>(positive) > kQuanta / 2) {
+        throw Error(ErrorKind::out_of_memory, "there are " + std::to_string(positive) +
+                                                  " sources of light to choose from, and only " +
+                                                  std::to_string(static_cast<std::size_t>(kQuanta / 2)) +
+                                                  " can be told apart; emit light from fewer triangles");
     }
     // Each positive weight gets one quantum, and the rest is shared in proportion.
     const double shared = kQuanta - static_cast<double>(positive);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "host/scene/material_model.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
@@ -154,6 +156,8 @@ TransmissionCurve make_curve(const Value& value) {
     return curve;
 }
 
+/// Receivers and shared lights keep the number of a curve in 16 bits.
+constexpr std::size_t kMaxCurve = 0xffff;
 constexpr double kMinCosine = 1e-6;  // a view along the surface has no visible normals
 
 }  // namespace
@@ -164,6 +168,12 @@ uint add_curve(Scene& scene, const TransmissionCurve& curve) {
         if (std::equal(curve.begin(), curve.end(), rows.begin() + static_cast<std::ptrdiff_t>(first))) {
             return static_cast<uint>(first / curve.size());
         }
+    }
+    if (rows.size() / curve.size() > kMaxCurve) {
+        throw Error(ErrorKind::out_of_memory,
+                    "the scene has more than " + std::to_string(kMaxCurve) +
+                        " different coats (index and roughness), which is what receivers "
+                        "can tell apart; let materials share them");
     }
     rows.insert(rows.end(), curve.begin(), curve.end());
     return static_cast<uint>(rows.size() / curve.size() - 1);

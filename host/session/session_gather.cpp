@@ -81,6 +81,11 @@ std::vector<double> work_of(DevicePool& pool, const PictureTask& picture, const 
 
 std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vpls,
                                               const GatherSettings& settings, uint seed) {
+    if (vpls.asked_count > 0 && settings.roulette > 0.0f) {
+        throw Error(ErrorKind::invalid_argument,
+                    "these VPLs are asked about by cuts, which leave nothing to Russian roulette",
+                    "roulette");
+    }
     const PixelWindow window = window_of(view, settings);
     Camera camera = view.camera;
     camera.splat_reach = splat_reach(view.scene_camera, settings);

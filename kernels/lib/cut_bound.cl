@@ -131,7 +131,8 @@ static inline float cut_bound(const BundleClusters* clusters, const Emission* fr
         clusters->thickness + from->radius + clusters->spread * (distance + radius);
     const float16 vpl_slack = radius + from->spread * (distance + radius);
     const int16 open = (to_receiver + receiver_slack > 0.0f) & (from_vpl + vpl_slack > 0.0f);
-    const float16 min_square = fmax((float16)clamp_radius_squared, (float16)1e-30f);
+    // Without a clamp radius, a receiver inside a node's sphere has no bound; this one stays finite.
+    const float16 min_square = fmax((float16)clamp_radius_squared, 1e-6f * radius * radius + 1e-18f);
     const float16 usual = cut_term(distance, to_receiver + CUT_UNCERTAINTY * receiver_slack,
                                    from_vpl + CUT_UNCERTAINTY * vpl_slack,
                                    fmax(CUT_NEARNESS * CUT_NEARNESS * radius * radius, min_square));

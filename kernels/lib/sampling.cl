@@ -47,11 +47,11 @@ static inline float3 square_to_cosine_hemisphere(float2 u) {
     return (float3)(sqrt(u.x) * circle_point(u.y), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
-/// A direction within the angle of cosine `cos_max` about +Z, with the density 1 / (2π(1 − cos_max)). A
-/// cosine of −1 gives the whole sphere.
-static inline float3 square_to_cone(float2 u, float cos_max) {
-    const float z = 1.0f - u.x * (1.0f - cos_max);
-    return (float3)(sqrt(fmax(0.0f, 1.0f - z * z)) * circle_point(u.y), z);
+/// A direction within an angle about +Z whose cosine is 1 − `height`, with the density 1 / (2π·height).
+/// Heights tell small angles apart, which cosines do not. A height of 2 gives the whole sphere.
+static inline float3 square_to_cap(float2 u, float height) {
+    const float below = height * u.x;
+    return (float3)(sqrt(below * fmax(2.0f - below, 0.0f)) * circle_point(u.y), 1.0f - below);
 }
 
 /// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that points that are

@@ -247,6 +247,9 @@ typedef struct GatherParams {
 /// within its margin casts no shadow.
 #define NEARLIGHT_SEGMENT_T_MIN 1e-6f
 #define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-6f)
+/// A ray that goes straight on beyond a surface skips the distance by which rays stand off it, divided by its
+/// cosine to the normal, or by this if that is less.
+#define NEARLIGHT_MIN_GRAZING_COSINE (1.0f / 32)
 
 /// What a camera sample finds at the end of its path through glass and mirrors. There is one for each
 /// receiver.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/base/random.h"
+#include "tests/support/error_matchers.h"
 
 namespace nearlight::core {
 namespace {
@@ -70,6 +71,13 @@ TEST(Distribution, NothingButZerosIsUniform) {
         EXPECT_EQ(step, 0.25);
     }
     EXPECT_TRUE(cumulative_distribution({}).empty());
+}
+
+TEST(Distribution, MoreWeightsThanItTellsApartAreRefused) {
+    const Error error =
+        test::error_of([] { (void)cumulative_distribution(std::vector<double>((1u << 23u) + 1, 1.0)); });
+    EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
+    EXPECT_TRUE(test::mentions(error, "8388609 sources of light"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/scene/material_model.h"
+#include "tests/support/error_matchers.h"
 
 namespace nearlight::core {
 namespace {
@@ -84,6 +85,18 @@ TEST(TransmissionCurve, RowZeroIsAllOnes) {
     for (const float value : scene.transmission_curves) {
         EXPECT_EQ(value, 1.0f);
     }
+}
+
+TEST(TransmissionCurve, MoreThanReceiversTellApartAreRefused) {
+    Scene scene;
+    const std::size_t rows = 0xffff;  // with row zero, one more than the largest number of 16 bits
+    scene.transmission_curves.resize((rows + 1) * NEARLIGHT_CURVE_SIZE, 0.5f);
+    TransmissionCurve halves;
+    halves.fill(0.5f);
+    EXPECT_EQ(add_curve(scene, halves), 1u) << "a curve that is there is shared";
+    const Error error = test::error_of([&] { add_curve(scene, smooth_coat_curve(1.5)); });
+    EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
+    EXPECT_TRUE(test::mentions(error, "65535 different coats"));
 }
 
 // The fits are good to 0.2 % and 0.6 % of the integral.

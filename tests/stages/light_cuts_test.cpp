@@ -307,8 +307,11 @@ TEST_F(LightCutsTest, OddSets) {
     wide_radius.clamp_radius = 1e15f;
     GatherCase no_radius = flat_case(std::vector<Vpl>(100, vpl_at({0, 0, 0}, {0, 0, -1}, 1.0f)));
     no_radius.clamp_radius = 0.0f;
+    GatherCase bright_without_radius = flat_case(std::vector<Vpl>(100, vpl_at({0, 0, 0}, {0, 0, -1}, 1e15f)));
+    bright_without_radius.clamp_radius = 0.0f;
     on_each_device([&](Device& device) {
-        for (const GatherCase* data : {&one_place, &negative, &wide_radius, &no_radius}) {
+        for (const GatherCase* data :
+             {&one_place, &negative, &wide_radius, &no_radius, &bright_without_radius}) {
             const Lists lists = Cut(device, *data, 20).lists(1);
             EXPECT_GE(lists.lengths[0], 19u);
             EXPECT_LE(lists.lengths[0], 21u);

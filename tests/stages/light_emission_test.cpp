@@ -72,6 +72,24 @@ TEST_F(LightEmissionTest, SpotAndAreaLightsEmitTheirPower) {
     });
 }
 
+/// The cosines of the angles of these spots are 1 but for their last bits, or 1. For small angles,
+/// 2π·(1 − (sin c − sin b)/(c − b)) is π/3·(c² + cb + b²).
+TEST_F(LightEmissionTest, NarrowSpotsEmitTheirPower) {
+    on_each_ray_tree([](Device& device) {
+        for (const double cutoff : {1e-2, 1e-3, 1.7e-4}) {
+            const double beam = 0.5 * cutoff;
+            Scene spot;
+            add_point_light(spot, {0.3f, 0, 0}, {2e6f, 2e6f, 2e6f});
+            spot.delta_emitters[0].type = NEARLIGHT_EMITTER_SPOT;
+            spot.delta_emitters[0].direction = normalize(Vec3{1, 2, 3});
+            spot.delta_emitters[0].beam_angle = static_cast<float>(beam);
+            spot.delta_emitters[0].cutoff_angle = static_cast<float>(cutoff);
+            const double cone = kPi / 3 * (cutoff * cutoff + cutoff * beam + beam * beam);
+            EXPECT_NEAR(emitted_power(device, spot), 2e6 * cone, 0.01 * 2e6 * cone) << cutoff;
+        }
+    });
+}
+
 /// A square lamp with a bitmap, which lies so close to a white square that its picture is printed there.
 TEST_F(LightEmissionTest, ATexturedLampEmitsEachTexelAtItsPlace) {
     Scene scene;

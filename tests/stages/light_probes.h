@@ -45,7 +45,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewe
         return;
     }
     const SceneView scene = SCENE_VIEW;
-    const float3 direction = square_to_cone(sample_2d(i, 0, 9), -1.0f);
+    const float3 direction = square_to_cap(sample_2d(i, 0, 9), 2.0f);
     const SurfaceHit hit = trace_surface(&scene, position.xyz, direction, INFINITY);
     const LightReceiver at = glossy_receiver(position.xyz, normal.xyz, viewer.xyz, 1.0f, viewer.w);
     out[i] = light_pdf(&scene, &at, direction, &hit);

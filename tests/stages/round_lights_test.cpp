@@ -228,7 +228,7 @@ TEST_F(RoundLightTest, DensitiesIntegrateToOne) {
 kernel void probe(SCENE_PARAMETERS, global float* out) {
     const uint i = (uint)get_global_id(0);
     const SceneView scene = SCENE_VIEW;
-    out[i] = PDF(scene.emitters, (float3)(0.0f), square_to_cone(sample_2d(i, 0, 9), -1.0f));
+    out[i] = PDF(scene.emitters, (float3)(0.0f), square_to_cap(sample_2d(i, 0, 9), 2.0f));
 }
 )";
     const std::pair<std::string, Scene> cases[]{{"sphere", one_lamp({0.3f, -0.4f, 0.5f}, 0.5f)},

@@ -13,9 +13,10 @@ static inline float3 image_color(const SceneView* scene, const global Emitter* e
     return texture_color(scene, emitter->image - 1, (float2)(st.x, 1.0f - st.y));
 }
 
-/// What remains of a spot's intensity at this angle from its axis.
-static inline float spot_falloff(const global Emitter* emitter, float cosine) {
-    const float angle = acos(clamp(cosine, -1.0f, 1.0f));
+/// What remains of a spot's intensity in this direction. The chord to the axis tells small angles apart,
+/// which the cosine does not.
+static inline float spot_falloff(const global Emitter* emitter, float3 direction) {
+    const float angle = 2.0f * asin(fmin(0.5f * length(direction - load3(emitter->direction)), 1.0f));
     if (angle <= emitter->beam_angle) {
         return 1.0f;
     }
@@ -35,7 +36,7 @@ static inline float3 delta_intensity(const SceneView* scene, const global Emitte
         0.5f +
         (float2)(dot(direction, load3(emitter->x_axis)), dot(direction, load3(emitter->y_axis))) / cosine;
     if (emitter->type == NEARLIGHT_EMITTER_SPOT) {
-        const float falloff = spot_falloff(emitter, cosine);
+        const float falloff = spot_falloff(emitter, direction);
         return falloff > 0.0f ? intensity * image_color(scene, emitter, st) * falloff : (float3)(0.0f);
     }
     const bool is_inside = cosine > 0.0f && st.x >= 0.0f && st.x <= 1.0f && st.y >= 0.0f && st.y <= 1.0f;

@@ -37,7 +37,7 @@ static inline EmittedParticle emit_from_round_light(const SceneView* scene, cons
                                                     float2 u_position, float2 u_direction) {
     const bool is_sphere = emitter->type == NEARLIGHT_EMITTER_SPHERE;
     const float3 axis = load3(emitter->direction);
-    const float3 normal = is_sphere ? square_to_cone(u_position, -1.0f)
+    const float3 normal = is_sphere ? square_to_cap(u_position, 2.0f)
                                     : to_world_frame((float3)(circle_point(u_position.y), 0.0f), axis);
     const float3 center =
         load3(emitter->position) + (is_sphere ? (float3)(0.0f) : u_position.x * emitter->length * axis);
@@ -174,12 +174,13 @@ static inline EmittedParticle emit_from_environment(const SceneView* scene, cons
 static inline EmittedParticle emit_from_point(const SceneView* scene, const global Emitter* emitter,
                                               float2 u_direction) {
     const bool is_spot = emitter->type == NEARLIGHT_EMITTER_SPOT;
-    const float cos_max = is_spot ? cos(emitter->cutoff_angle) : -1.0f;
+    const float half_chord = is_spot ? sin(0.5f * emitter->cutoff_angle) : 1.0f;
+    const float height = 2.0f * half_chord * half_chord;
     const float3 axis = is_spot ? load3(emitter->direction) : (float3)(0.0f, 0.0f, 1.0f);
     EmittedParticle particle;
     particle.origin = load3(emitter->position);
-    particle.direction = to_world_frame(square_to_cone(u_direction, cos_max), axis);
-    particle.flux = delta_intensity(scene, emitter, particle.direction) * (2.0f * M_PI_F * (1.0f - cos_max));
+    particle.direction = to_world_frame(square_to_cap(u_direction, height), axis);
+    particle.flux = delta_intensity(scene, emitter, particle.direction) * (2.0f * M_PI_F * height);
     particle.from_delta = 1;
     return particle;
 }

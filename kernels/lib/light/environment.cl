@@ -79,8 +79,7 @@ static inline float sun_pdf(const SceneView* scene, float3 direction) {
 
 /// A direction that is uniform over the sun's disc.
 static inline float3 sample_sun(const SceneView* scene, float2 u) {
-    const float height = scene->environment->sun_height * u.x;
-    return to_world_frame((float3)(sqrt(height * (2.0f - height)) * circle_point(u.y), 1.0f - height),
+    return to_world_frame(square_to_cap(u, scene->environment->sun_height),
                           load3(scene->environment->sun_direction));
 }
 
