@@ -63,8 +63,7 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
         ->default_str(to_string(sampling.policy));
     command
         .add_option("--vpls", sampling.vpl_count,
-                    "Target number of VPLs (virtual point lights), which is what a pixel's samples ask about "
-                    "together")
+                    "Target number of VPLs (virtual point lights) that the samples of a pixel ask together")
         ->check(CLI::Range(0u, kMaxVpls))
         ->type_name("N")
         ->capture_default_str();
@@ -92,9 +91,10 @@ void add_splat_option(CLI::App& command, std::string& splat) {
     command
         .add_option(
             "--splat", splat,
-            "on: samples count in all pixels whose reconstruction filter reaches them, which takes "
-            "half of the noise or more; off: in their own pixel alone, so that pixels have noise of "
-            "their own, as denoisers expect (default: on, but off with --denoise and with layers of mattes)")
+            "on: samples count in all pixels whose reconstruction filter reaches them, which leaves "
+            "about a half to a third of the variance; off: in their own pixel alone, so that pixels have "
+            "noise of their own, as denoisers expect (default: on, but off with --denoise and with layers "
+            "of mattes)")
         ->check(CLI::IsMember({"on", "off"}))
         ->type_name("on|off");
 }

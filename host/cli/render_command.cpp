@@ -149,8 +149,8 @@ void add_render_command(CommandLine& line) {
     command
         .add_option(
             "--strata", options->settings.gather.strata,
-            "Parts of the set of VPLs. Samples of a pixel take turns to ask about one part each, which "
-            "counts for all; 1: each sample asks about all VPLs (default: as many as --spp)")
+            "Divide the VPLs into N parts. Each sample asks one part, whose VPLs count N times; 1: each "
+            "sample asks all (default: as many as --spp)")
         ->check(CLI::Range(1u, kMaxSamplesPerPixel))
         ->type_name("N");
     add_pass_options(command, options->passes);
