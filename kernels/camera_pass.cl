@@ -200,14 +200,16 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
     return receiver;
 }
 
-/// Turns what branch 0 met into branch 1 of a path that never divides, which is absent and brings no light.
-static inline void leave_to_branch_0(CameraReceiver* receiver) {
-    receiver->vertex.throughput = store3((float3)(0.0f));
-    receiver->vertex.albedo = store3((float3)(0.0f));
-    receiver->vertex.camera_light = store3((float3)(0.0f));
-    receiver->vertex.traced_direct = receiver->vertex.traced_indirect = store3((float3)(0.0f));
-    receiver->normal = (float3)(0.0f);
-    receiver->seen.light_samples = 0;
+/// Branch 1 of a path that never divides: it is where branch 0 is, but absent, and brings no light.
+static inline CameraReceiver undivided_branch(CameraReceiver branch_0) {
+    CameraReceiver receiver = branch_0;
+    receiver.vertex.throughput = store3((float3)(0.0f));
+    receiver.vertex.albedo = store3((float3)(0.0f));
+    receiver.vertex.camera_light = store3((float3)(0.0f));
+    receiver.vertex.traced_direct = receiver.vertex.traced_indirect = store3((float3)(0.0f));
+    receiver.normal = (float3)(0.0f);
+    receiver.seen.light_samples = 0;
+    return receiver;
 }
 
 static inline void store_receiver(const CameraReceiver* from, global ReceiverPacket* to, uint lane,
@@ -272,7 +274,7 @@ kernel void camera_pass(SCENE_PARAMETERS, const global Camera* restrict camera,
             receiver = follow_path(&scene, camera, close_range, &params.limits, &path, branch, &first);
             divided = !path.undivided;
         } else if (branch == 1) {
-            leave_to_branch_0(&receiver);
+            receiver = undivided_branch(receiver);
         }
         const uint packet = packet_at(order, column, row, sample, branch);
         store_receiver(&receiver, receivers + packet, lane,

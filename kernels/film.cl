@@ -80,7 +80,7 @@ kernel void film_add(const global ReceiverPacket* restrict receivers,
     for (uint sample = 0; sample < order.sample_count; ++sample) {
         for (uint branch = 0; branch < order.branch_count; ++branch) {
             const uint packet = packet_at(order, place.column, place.row, sample, branch);
-            const CameraVertex vertex = vertices[packet * NEARLIGHT_PACKET_SIZE + lane];
+            const CameraVertex vertex = *vertex_at(vertices, order, place, sample, branch);
             const FilmLight received =
                 received_by(direct + packet, gathered + packet, indirect + packet, lane);
             add_light(pixel, &vertex, &received);

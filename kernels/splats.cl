@@ -82,7 +82,7 @@ kernel void splats_add(const global CameraVertex* restrict vertices,
         FilmLight light = {(float3)(0.0f), (float3)(0.0f)};
         for (uint branch = 0; branch < order.branch_count; ++branch) {
             const uint packet = packet_at(order, place.column, place.row, sample, branch);
-            CameraVertex vertex = vertices[(size_t)packet * NEARLIGHT_PACKET_SIZE + place.lane];
+            CameraVertex vertex = *vertex_at(vertices, order, place, sample, branch);
             if (!with_camera_light) {
                 vertex.camera_light = store3((float3)(0.0f));
             }

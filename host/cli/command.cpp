@@ -274,6 +274,11 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
         ->type_name("WxH");
 }
 
+CLI::Option* add_scene_size_option(CLI::App& command, ImageSize& size) {
+    return add_size_option(command, size)
+        ->description("Size of the picture, in pixels (default: the scene's)");
+}
+
 CLI::Validator number_from(double low, double high) {
     return CLI::Validator(
         [low, high](const std::string& text) {

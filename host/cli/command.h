@@ -74,6 +74,8 @@ PixelWindow parse_window(const std::string& text);
 std::optional<float> number_or_auto(const std::string& option, const std::string& text, float min, float max);
 /// Adds the option --size, without which `size` is unchanged.
 CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
+/// The same option where the scene's size is the default.
+CLI::Option* add_scene_size_option(CLI::App& command, ImageSize& size);
 
 /// Adds an option whose value must be the name of a choice. The error for any other value lists the names,
 /// and completions offer them. `value` is a Choice or an optional one.

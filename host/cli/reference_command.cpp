@@ -266,7 +266,7 @@ void add_reference_command(CommandLine& line) {
             "--max-depth", options->max_depth,
             "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's, or 256)")
         ->check(CLI::NonNegativeNumber);
-    add_size_option(command, options->size);
+    add_scene_size_option(command, options->size);
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
     command.add_flag("--resume", options->resume,

@@ -133,7 +133,7 @@ void add_render_command(CommandLine& line) {
     options->picture.offers_mattes = true;
     add_scene_options(command, options->scene);
     add_picture_options(command, options->picture);
-    add_size_option(command, options->size);
+    add_scene_size_option(command, options->size);
     command
         .add_option_function<std::string>(
             "--crop",

@@ -273,7 +273,7 @@ void add_view_command(CommandLine& line) {
                          [options](const GlobalOptions& global) { return run_view(*options, global); });
     add_scene_options(command, options->scene);
     add_glass_option(command, options->scene.clear_glass);
-    add_size_option(command, options->size);
+    add_scene_size_option(command, options->size);
     add_screen_options(command, options->screen);
     add_window_options(command, *options);
     add_tev_option(command, options->tev);

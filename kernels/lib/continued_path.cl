@@ -47,12 +47,12 @@ typedef struct Continuation {
     uint parts;            // of the first surface that count
     float diffuse_weight;  // of its Lambertian part
     uint max_edges;
-    float near_scale;  // of light over up to WantedLight.max_edges edges
-    float far_scale;   // of light over more
-    uint is_found;     // 1: the ray brings a light that its receiver shares
-    float3 shading;    // normal of the first surface
-    uint curve;        // its transmission curve
-    float3 excess;     // of lamps met by chance, over the limit: it stays with the receiver
+    float short_scale;  // of light over up to WantedLight.max_edges edges
+    float long_scale;   // of light over more
+    uint is_found;      // 1: the ray brings a light that its receiver shares
+    float3 shading;     // normal of the first surface
+    uint curve;         // its transmission curve
+    float3 excess;      // of lamps met by chance, over the limit: it stays with the receiver
 } Continuation;
 
 /// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
@@ -78,14 +78,14 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
         way.max_edges = wanted->vpl_edges;
-        way.near_scale = -taken / chance;
-        way.far_scale = -of_vpls / chance;
+        way.short_scale = -taken / chance;
+        way.long_scale = -of_vpls / chance;
     } else {
         way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);
         way.diffuse_weight = kept;
         way.max_edges = wanted->max_edges;
-        way.near_scale = 1.0f / (1.0f - chance);
-        way.far_scale = 0.0f;
+        way.short_scale = 1.0f / (1.0f - chance);
+        way.long_scale = 0.0f;
     }
     return way;
 }
@@ -98,7 +98,7 @@ static inline void choose_found_light(const SurfaceBsdf* first, bool is_diffuse,
     way->is_found = u < chance;
     way->parts = way->is_found ? BSDF_D : BSDF_S;
     way->diffuse_weight = 1.0f;
-    way->near_scale = way->is_found ? 1.0f / chance : 1.0f / (1.0f - chance);
+    way->short_scale = way->is_found ? 1.0f / chance : 1.0f / (1.0f - chance);
     way->shading = first->frame.n;
     way->curve = first->bsdf.curve;
 }
@@ -126,15 +126,16 @@ static inline SurfaceBsdf first_bsdf(const SceneView* scene, const SurfaceHit* h
 static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* hit,
                                       const SurfaceBsdf* surface, uint parts, const WantedLight* wanted,
                                       const Continuation* way, uint surfaces, uint seed) {
-    const bool is_near = surfaces < wanted->max_edges;
-    const bool has_far = way->far_scale != 0.0f && (!is_near || scene->info->veils != NEARLIGHT_VEILS_NONE);
+    const bool is_short = surfaces < wanted->max_edges;
+    const bool has_long =
+        way->long_scale != 0.0f && (!is_short || scene->info->veils != NEARLIGHT_VEILS_NONE);
     float3 sum = (float3)(0.0f);
     // With n = wanted->max_edges, m = way->max_edges and L(e) for the light over at most e edges, this is
-    // near·L(n) + far·(L(m) − L(n)) = (near − far)·L(n) + far·L(m).
+    // short·L(n) + long·(L(m) − L(n)) = (short − long)·L(n) + long·L(m).
 #pragma unroll 1
     for (uint length = 0; length < 2; ++length) {
-        const float far_scale = has_far ? way->far_scale : 0.0f;
-        const float scale = length == 1 ? far_scale : (is_near ? way->near_scale - far_scale : 0.0f);
+        const float long_scale = has_long ? way->long_scale : 0.0f;
+        const float scale = length == 1 ? long_scale : (is_short ? way->short_scale - long_scale : 0.0f);
         if (scale != 0.0f) {
             const uint edges = length == 0 ? wanted->max_edges : way->max_edges;
             const LightQuota quota = {1, 1, edges - surfaces - 1, 0, 0};
@@ -157,7 +158,7 @@ typedef struct BundlePath {
 /// else is left on this way.
 static inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x,
                                       float3 y, const Continuation* way) {
-    const bool is_alone = (way->parts & BSDF_S) && way->far_scale == 0.0f &&
+    const bool is_alone = (way->parts & BSDF_S) && way->long_scale == 0.0f &&
                           (!(way->parts & BSDF_D) || is_black(surface->bsdf.diffuse));
     return found->light.is_wanted && is_alone && !surface->mapped &&
            shares_gloss(x, y, gloss_width(&surface->bsdf), found->spacing);
@@ -173,7 +174,7 @@ static inline BundlePath begin_bundle_path(const SceneView* scene, const FoundRe
     path.is_one = reflects_to_bundle(found, surface, x, y, way);
     if (path.is_one) {
         way->parts = u < REFLECTED_PART ? BSDF_S : 0;
-        way->near_scale /= REFLECTED_PART;
+        way->short_scale /= REFLECTED_PART;
         path.place = glossy_place(y, hit, surface, model);
     }
     return path;
@@ -255,7 +256,7 @@ static inline float part_beside_aimed(const ContinuedPath* path, const WantedLig
 /// bundle's goes into the draw.
 static inline void add_met_light(const SceneView* scene, ContinuedPath* path, const WantedLight* wanted,
                                  uint surfaces, float u, FoundReflection* found) {
-    const float scale = surfaces < wanted->max_edges ? path->way.near_scale : path->way.far_scale;
+    const float scale = surfaces < wanted->max_edges ? path->way.short_scale : path->way.long_scale;
     const PathRay* ray = &path->ray;
     const MetLight met = find_met_light(scene, ray, &path->hit);
     const float3 brought = scale * ray->throughput * met.radiance;
@@ -279,7 +280,7 @@ static inline bool reflect_and_scatter(const SceneView* scene, ContinuedPath* pa
     const bool begins_bundle_path = path->of_bundle.is_one && surfaces == 1;
     if (begins_bundle_path) {
         offer_reflected_lights(scene, &path->hit, surface, &path->of_bundle.place, wanted->max_edges - 2,
-                               path->way.near_scale * survived, numbers->light_seed, found);
+                               path->way.short_scale * survived, numbers->light_seed, found);
     } else {
         const float part = is_mirror_or_glass(surface, false) ? part_beside_aimed(path, wanted) : 1.0f;
         path->light.indirect += part * before *

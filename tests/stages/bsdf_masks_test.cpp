@@ -89,25 +89,38 @@ Material leaning_map(uint child) {
     return map;
 }
 
+BsdfScene scene_with_maps(const Material& below, uint maps) {
+    BsdfScene scene;
+    scene.materials = {leaning_map(maps == 2 ? 1 : 2), leaning_map(2), below, make_diffuse(constant(0.2f)),
+                       make_diffuse(constant(0.9f))};
+    return scene;
+}
+
+/// What a white material under maps sends of the light of all_choices() to its viewer.
+double radiance_under_maps(BsdfProbe& probe, uint maps) {
+    return probe
+        .ask(scene_with_maps(make_diffuse(constant(1.0f)), maps),
+             make_query(direction_at(0), direction_at(20), kBothParts))
+        .value.x;
+}
+
 /// The map decides by chance whether a path of flux sees its normal turned, and what lies below has to decide
 /// apart from that: the mean over all choices is the reflectance of what is below, whose light is compared
-/// with that of a plain material under the map.
+/// with that of a plain material under the map. This is the radiance along the same path the other way, times
+/// the quotient of the cosines to the mesh.
 TEST_F(BsdfMasksTest, BlendsAndMasksUnderMapsHaveTheirProbabilities) {
     on_each_device([](Device& device) {
         BsdfProbe probe(device);
         const auto mean_under_maps = [&](Material below, uint maps) {
-            BsdfScene scene;
-            scene.materials = {leaning_map(maps == 2 ? 1 : 2), leaning_map(2), below,
-                               make_diffuse(constant(0.2f)), make_diffuse(constant(0.9f))};
             std::vector<BsdfQuery> queries = all_choices();
             for (BsdfQuery& query : queries) {
                 query.mode = kFlux;
             }
-            return mean_value(probe.ask(scene, queries));
+            return mean_value(probe.ask(scene_with_maps(below, maps), queries));
         };
         for (const uint maps : {1u, 2u}) {
             const double white = mean_under_maps(make_diffuse(constant(1.0f)), maps);
-            EXPECT_GT(white, 0.1);
+            EXPECT_NEAR(white, radiance_under_maps(probe, maps) / direction_at(20).z, 1e-3 * white);
             const Material blend = make_wrapper(NEARLIGHT_BSDF_BLEND, constant(0.25f), 3, 4);
             EXPECT_NEAR(mean_under_maps(blend, maps) / white, 0.75 * 0.2 + 0.25 * 0.9, 2e-3);
             const Material mask = make_wrapper(NEARLIGHT_BSDF_MASK, constant(0.6f), 4, 4);

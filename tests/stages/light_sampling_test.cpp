@@ -8,6 +8,7 @@
 
 #include "host/base/random.h"
 #include "host/reference/light_sampler.h"
+#include "host/scene/environment_map.h"
 #include "tests/stages/light_probes.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/kernel_probe.h"
@@ -62,6 +63,49 @@ Scene lamps_and_sky(Sky sky) {
         scene.environment = make_sky(sky);
     }
     return scene;
+}
+
+/// Its pixels differ much, so that each of the four around a direction shows in what is between them.
+TEST_F(LightSamplingTest, BetweenThePixelsOfAMapTheDeviceReadsWhatTheHostReads) {
+    constexpr uint kCount = 2048;
+    Scene scene;
+    scene.environment = {.width = 5, .height = 4, .radiance = {}, .to_world = rotation(1, 2, 3, 50)};
+    scene.environment.is_interpolated = true;
+    Pcg32 random(11);
+    for (int i = 0; i < 20; ++i) {
+        scene.environment.radiance.push_back(10.0f *
+                                             Vec3{random.uniform(), random.uniform(), random.uniform()});
+    }
+    const MapShape map{.width = 5, .height = 4, .is_interpolated = true};
+    const Mat4 to_local = inverse(scene.environment.to_world);
+    on_each_device([&](Device& device) {
+        KernelProbe probe(device, R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+kernel void probe(SCENE_PARAMETERS, global float4* directions, global float4* radiances) {
+    const uint i = (uint)get_global_id(0);
+    const SceneView scene = SCENE_VIEW;
+    const float3 direction = square_to_cap(sample_2d(i, 0, 7), 2.0f);
+    directions[i] = (float4)(direction, 0.0f);
+    radiances[i] = (float4)(environment_radiance(&scene, direction), 0.0f);
+}
+)");
+        const SceneOnDevice on_device(probe.device(), scene);
+        Buffer<Float4> directions(probe.device(), kCount);
+        Buffer<Float4> radiances(probe.device(), kCount);
+        probe.kernel().launch(kCount, 8, on_device.buffers, directions, radiances);
+        const std::vector<Float4> towards = directions.download();
+        const std::vector<Float4> found = radiances.download();
+        for (uint i = 0; i < kCount; ++i) {
+            const Vec3 local =
+                normalize(transform_vector(to_local, {towards[i][0], towards[i][1], towards[i][2]}));
+            const Vec3 expected = map_radiance(map, local, [&](MapPixel pixel) {
+                return scene.environment.radiance[pixel.row * 5 + pixel.column];
+            });
+            EXPECT_NEAR(found[i][0], expected.x, 2e-3f) << i;
+            EXPECT_NEAR(found[i][2], expected.z, 2e-3f) << i;
+        }
+    });
 }
 
 TEST_F(LightSamplingTest, SamplesOfTheSunAreEvenOverItsDisc) {
