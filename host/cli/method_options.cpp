@@ -108,10 +108,10 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
     command
         .add_option(
             "--clamp-radius", texts.clamp_radius,
-            fmt::format(
-                "VPLs closer than R light a point as if they were at the distance R, and rays "
-                "bring back the rest: in m, or auto, which {}",
-                pilot == Pilot::runs ? "chooses the radius of least noise" : "is a twentieth of the range"))
+            fmt::format("VPLs closer than R light a point as if they were at the distance R, and rays "
+                        "bring back the rest: in m, or auto, which {}",
+                        pilot == Pilot::runs ? "chooses the radius of least noise at the default --rays"
+                                             : "is a twentieth of the range"))
         ->type_name("R")
         ->capture_default_str();
     command

@@ -33,6 +33,7 @@ struct FirstRows {
 
     /// Records the times; only the first call has an effect.
     void note(const Stopwatch& since_begin);
+    [[nodiscard]] bool have_come() const { return seconds > 0.0; }
 };
 
 /// What the object of `render --json` is made of.

@@ -308,7 +308,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         render(session, in_time_left(run.settings, seconds_before), hooks, std::move(start.passes));
     bar.clear();
     // Without any row, files that are there are better than black ones.
-    const bool has_rows = sinks.first_rows.seconds > 0.0 || !report.interrupted;
+    const bool has_rows = sinks.first_rows.have_come() || !report.interrupted;
     if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
         sinks.picture.commit(since_begin, false,

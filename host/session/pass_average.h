@@ -12,7 +12,7 @@
 namespace nearlight::core {
 
 /// Averages passes. A column of the table in kernels/shared/film_layers.h says which layers are averaged and
-/// which are those of pass 0.
+/// which are those of the first pass that is added.
 ///
 /// The variance of the mean is judged in two ways. Each pass brings a variance of its own, which compares its
 /// samples; it knows every pixel well, but not what all samples of a pass share, above all the set of VPLs.

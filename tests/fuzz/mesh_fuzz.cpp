@@ -24,12 +24,15 @@ std::string serialized_file(int version, Bytes contents) {
 
 }  // namespace
 
+/// As a shape, and as a scene, which may have textures.
 void fuzz_ply(Bytes bytes) {
-    put("mesh.ply", bytes);
+    [[maybe_unused]] static const auto kImage = put("t.ppm", "P6\n2 1\n255\nabcdef");
+    const auto mesh = put("mesh.ply", bytes);
     static const auto kScene = put("ply.xml",
                                    "<scene version='3.0.0'><shape type='ply'><string name='filename' "
                                    "value='mesh.ply'/></shape></scene>");
     load_and_check(kScene);
+    load_and_check(mesh);
 }
 
 void fuzz_serialized(Bytes bytes) {

@@ -37,8 +37,14 @@ void fuzz_mitsuba(Bytes bytes) {
     load(put("scene.xml", bytes));
 }
 
+/// As a scene, and of a shape of Mitsuba 0.6 the second mesh.
 void fuzz_obj(Bytes bytes) {
     load(put("scene.obj", bytes));
+    static const std::filesystem::path kShape =
+        put("obj.xml",
+            "<scene version='0.6.0'><shape type='obj'><string name='filename' value='scene.obj'/><integer "
+            "name='shapeIndex' value='1'/></shape></scene>");
+    load(kShape);
 }
 
 void fuzz_mtl(Bytes bytes) {
