@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// WebP by its own library: OpenImageIO before 2.5.19 and 3.0.8 multiplies colours by alpha, whatever it is
-// asked, and what is multiplied by 0 is lost.
+// WebP by its own library: OpenImageIO 2.4 multiplies its colours by alpha, whatever it is asked, and what is
+// multiplied by 0 is lost.
 #pragma once
 
 #include <filesystem>
