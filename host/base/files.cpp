@@ -9,16 +9,13 @@
 #include <system_error>
 
 #include "host/base/atomic_file.h"
+#include "host/base/words.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
 
 std::string lower_case_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return extension;
+    return lower_case(file.extension().string());
 }
 
 void make_folder(const std::filesystem::path& folder) {

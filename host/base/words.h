@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of words as text.
+// Words and lists of them as text.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nearlight::core {
+
+/// The letter as a small one, if it is an ASCII letter.
+inline char lower_case(char letter) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+inline std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char letter) { return lower_case(letter); });
+    return text;
+}
+/// Whether the texts are the same but for the case of ASCII letters.
+inline bool equal_in_any_case(std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b, [](char x, char y) { return lower_case(x) == lower_case(y); });
+}
 
 /// What stands between the separators; an empty text is one empty word.
 inline std::vector<std::string> split(std::string_view text, char separator) {

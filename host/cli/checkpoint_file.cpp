@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 /// How much of the magic all versions of the format have.
 constexpr std::size_t kFamily = 6;
 /// Bounds that only a file that somebody made up exceeds: it must not take more memory than its size.
-constexpr std::size_t kMaxPasses = 2'000'000;
+constexpr std::size_t kMaxRecordedPasses = 2'000'000;
 constexpr uint kMaxPassNumber = 2'000'000'000;
 constexpr int kMaxDepth = 8;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{16} << 20u;
@@ -175,7 +175,7 @@ PassRecord record_in(const Json& json) {
                                 .samples = samples.empty() ? std::vector<uint>() : parse_pass_list(samples)});
         // Each list is limited, but a short file could have many.
         passes += record.whole.back().samples.size();
-        if (passes > kMaxPasses || record.whole.back().first > kMaxPassNumber) {
+        if (passes > kMaxRecordedPasses || record.whole.back().first > kMaxPassNumber) {
             throw std::length_error("passes");
         }
     }

@@ -207,7 +207,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--max-depth", settings.max_depth,
                     "Maximum path depth, counted as in Mitsuba (default: the scene's, or 256)")
-        ->check(CLI::Range(1u, 1024u))
+        ->check(CLI::Range(1u, kMaxPathDepth))
         ->type_name("N");
 }
 

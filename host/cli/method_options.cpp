@@ -134,7 +134,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
         .add_option("--max-depth", settings.view.max_depth,
                     "Maximum path depth, counted as in Mitsuba: 2 is direct light only (default: the "
                     "scene's, or 256)")
-        ->check(CLI::Range(1u, 1024u))
+        ->check(CLI::Range(1u, kMaxPathDepth))
         ->type_name("N");
     command
         .add_option("--seed", settings.seed,

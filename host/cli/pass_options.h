@@ -21,8 +21,8 @@ struct PassOptions {
 /// Adds --passes, --time, --error and --pass-spp.
 void add_pass_options(CLI::App& command, PassOptions& options);
 
-/// Throws Error(ErrorKind::invalid_argument) if the layer `variance` is asked for of a picture that cannot have
-/// more than a single sample per pixel, which says nothing about its error.
+/// Throws Error(ErrorKind::invalid_argument) if the layer `variance` is asked for of a picture that cannot
+/// have more than a single sample per pixel, which says nothing about its error.
 void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings);
 /// Warns if the layer `variance` is asked for and passes of these samples per pixel do not tell it.
 void warn_of_unknown_variance(const PictureOptions& picture, std::span<const uint> samples);

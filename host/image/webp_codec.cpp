@@ -3,14 +3,13 @@
 
 #include <webp/decode.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <string>
 #include <utility>
-#include <vector>
 
 namespace nearlight::core {
 namespace {
@@ -18,21 +17,19 @@ namespace {
 /// "RIFF", four bytes of size, "WEBP".
 constexpr std::size_t kHeadSize = 12;
 
-bool is_webp(std::span<const char> head) {
-    return head.size() == kHeadSize && std::memcmp(head.data(), "RIFF", 4) == 0 &&
-           std::memcmp(head.data() + 8, "WEBP", 4) == 0;
+bool is_webp(std::span<const std::byte> content) {
+    return content.size() >= kHeadSize && std::memcmp(content.data(), "RIFF", 4) == 0 &&
+           std::memcmp(content.data() + 8, "WEBP", 4) == 0;
 }
 
 /// The content of the file, if it is WebP.
-std::vector<char> webp_in(const std::filesystem::path& file) {
+std::string webp_in(const std::filesystem::path& file) {
     std::ifstream input(file, std::ios::binary);
-    std::array<char, kHeadSize> head{};
-    if (!input.read(head.data(), head.size()) || !is_webp(head)) {
+    std::string content(kHeadSize, '\0');
+    if (!input.read(content.data(), kHeadSize) || !is_webp(std::as_bytes(std::span(content)))) {
         return {};
     }
-    std::vector<char> content(head.begin(), head.end());
-    content.insert(content.end(), std::istreambuf_iterator<char>(input), {});
-    return content;
+    return content.append(std::istreambuf_iterator<char>(input), {});
 }
 
 struct WebPDeleter {
@@ -42,11 +39,9 @@ struct WebPDeleter {
 }  // namespace
 
 std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-    const std::vector<char> content =
-        bytes.empty() ? webp_in(file)
-                      : std::vector<char>(reinterpret_cast<const char*>(bytes.data()),
-                                          reinterpret_cast<const char*>(bytes.data()) + bytes.size());
-    if (content.size() < kHeadSize || !is_webp(std::span(content).first(kHeadSize))) {
+    const std::string from_file = bytes.empty() ? webp_in(file) : std::string();
+    const auto content = bytes.empty() ? std::as_bytes(std::span(from_file)) : bytes;
+    if (!is_webp(content)) {
         return std::nullopt;
     }
     const auto* const data = reinterpret_cast<const std::uint8_t*>(content.data());

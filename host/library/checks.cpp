@@ -16,11 +16,11 @@ namespace {
 using core::kMaxFrame;
 using core::kMaxLightSamples;
 using core::kMaxPasses;
+using core::kMaxPathDepth;
 using core::kMaxPictureSide;
 using core::kMaxSamplesPerPixel;
 using core::kMaxVpls;
 
-constexpr std::uint32_t kMaxDepth = 1024;
 constexpr float kMaxLength = 1e9f;
 constexpr float kMaxRoulette = 1000.0f;
 /// The maximum deviation of a normal's length from 1. Rounding stays below it; a larger deviation means that
@@ -55,7 +55,7 @@ void check(const ViewSettings& settings) {
     check_range("height", settings.height, 1, kMaxPictureSide);
     check_range("range", settings.range, 1e-6f, kMaxLength);
     check_range("clamp_radius", settings.clamp_radius, 0.0f, kMaxLength);
-    check_range("max_depth", settings.max_depth, 1u, kMaxDepth);
+    check_range("max_depth", settings.max_depth, 1u, kMaxPathDepth);
 }
 
 void check(const SamplingSettings& settings) {

@@ -2,13 +2,13 @@
 #include "host/scene/file_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <span>
 #include <system_error>
 #include <vector>
 
 #include "host/base/files.h"
+#include "host/base/words.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -124,13 +124,6 @@ std::filesystem::path find_moved_file(const std::filesystem::path& file, const s
         found = find_in_any_case(folder, written.filename());
     }
     return found.empty() ? as_written : found;
-}
-
-bool equal_in_any_case(std::string_view a, std::string_view b) {
-    const auto is_same = [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-    };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same);
 }
 
 }  // namespace nearlight::core

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <string_view>
 
 namespace nearlight::core {
 
@@ -40,8 +39,5 @@ std::filesystem::path resolve_path(const std::filesystem::path& file, const std:
 /// two in any case of letters, where of several files the first in alphabetical order counts. If there is no
 /// such file, what resolve_path() returns.
 std::filesystem::path find_moved_file(const std::filesystem::path& file, const std::string& name);
-
-/// Whether the texts are the same but for the case of ASCII letters.
-bool equal_in_any_case(std::string_view a, std::string_view b);
 
 }  // namespace nearlight::core

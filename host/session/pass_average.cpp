@@ -110,7 +110,8 @@ uint PassAverage::telling_passes() const {
     constexpr std::size_t kTellingPixels = 64;
     constexpr std::size_t kMaxTelling = 8;
     const std::size_t pixels = std::max<std::size_t>(sums_.width() * sums_.height(), 1);
-    return static_cast<uint>(std::clamp<std::size_t>(divide_rounding_up(kTellingPixels, pixels), 1, kMaxTelling));
+    return static_cast<uint>(
+        std::clamp<std::size_t>(divide_rounding_up(kTellingPixels, pixels), 1, kMaxTelling));
 }
 
 void PassAverage::send(const std::function<void(std::span<const float> rows)>& sink) const {

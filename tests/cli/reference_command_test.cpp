@@ -149,9 +149,8 @@ TEST_F(Reference, OneThatHasHardlyBegunDoesNotReplaceAnOlderOne) {
     ASSERT_EQ(run_program("reference --spp 4 " + files()).exit_code, 0);
     const std::string before = file_text(output_);
     const Stopwatch watch;
-    const ProgramResult result =
-        run_interrupted("reference --spp 16777216 --size 1000x1000 " + files(), 1,
-                        [&](const ProgramResult&) { return watch.seconds() > 1.0; });
+    const ProgramResult result = run_interrupted("reference --spp 16777216 --size 1000x1000 " + files(), 1,
+                                                 [&](const ProgramResult&) { return watch.seconds() > 1.0; });
     EXPECT_EQ(result.exit_code, 130) << result.errors;
     EXPECT_NE(result.errors.find("older pictures were kept"), std::string::npos) << result.errors;
     EXPECT_EQ(file_text(output_), before);

@@ -12,6 +12,11 @@ namespace {
 
 using namespace test;
 
+void expect_opacity(const Material& mask, float opacity) {
+    EXPECT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
+    EXPECT_FLOAT_EQ(mask.reflectance.value.x, opacity);
+}
+
 TEST(Obj, MaterialsLightsAndMissingOnes) {
     const SceneFiles files;
     files.write(
@@ -192,8 +197,7 @@ TEST(Obj, KeywordsOfLibrariesMayHaveAnyCase) {
     files.write("m.mtl", "NEWMTL Wall\nkd 0.8 0.1 0.2\nILLUM\t1\nD 0.5\n");
     const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wall\nf 1 2 3\n");
     const Material& mask = scene.materials[scene.triangles.at(0).material];
-    ASSERT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
-    EXPECT_FLOAT_EQ(mask.reflectance.value.x, 0.5f);
+    expect_opacity(mask, 0.5f);
     expect_near(scene.materials[scene.materials[mask.child[0]].child[0]].reflectance.value,
                 {0.8f, 0.1f, 0.2f});
 }
@@ -262,9 +266,7 @@ TEST(Obj, BlendersTransparencyIsNoGlass) {
     const SceneFiles files;
     files.write("b.mtl", "# Blender 4.0.2 MTL File: 'a.blend'\nnewmtl m\nKs 0.5 0.5 0.5\nd 0.25\nillum 9\n");
     const Scene scene = load_obj(files, "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    const Material& mask = scene.materials[scene.triangles.at(0).material];
-    ASSERT_EQ(mask.model, NEARLIGHT_BSDF_MASK);
-    EXPECT_FLOAT_EQ(mask.reflectance.value.x, 0.25f);
+    expect_opacity(scene.materials[scene.triangles.at(0).material], 0.25f);
 }
 
 /// Before Blender 3, only the OBJ file told the version, and 900 was the exponent of smooth surfaces.

@@ -2,13 +2,13 @@
 #include "host/cl/devices/device_list.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <iterator>
 #include <mutex>
 #include <regex>
 #include <sstream>
 
+#include "host/base/words.h"
 #include "host/cl/devices/driver_cache.h"
 #include "host/cl/devices/registered_drivers.h"
 #include "host/cl/opencl_error.h"
@@ -25,11 +25,6 @@ std::string trimmed(std::string text) {
     while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) {
         text.pop_back();
     }
-    return text;
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text;
 }
 
@@ -143,7 +138,7 @@ bool matches(const DeviceEntry& entry, const std::string& choice) {
     if (choice == "cpu" || choice == "gpu") {
         return choice == to_string(entry.kind);
     }
-    return lower(entry.name + " " + entry.platform).find(choice) != std::string::npos;
+    return lower_case(entry.name + " " + entry.platform).find(choice) != std::string::npos;
 }
 
 DeviceEntry default_device(const DeviceList& list) {
@@ -220,9 +215,9 @@ std::vector<DeviceEntry> chosen_of(const DeviceList& list, const std::string& re
         const std::string why = reasons.empty() ? "no OpenCL platform" : reasons.front();
         throw Error(ErrorKind::no_device, "no OpenCL device (" + why + "); " + kInstallHint);
     }
-    std::string choice = lower(requested);
+    std::string choice = lower_case(requested);
     if (const char* variable = std::getenv("NEARLIGHT_DEVICE"); choice.empty() && variable != nullptr) {
-        choice = lower(variable);
+        choice = lower_case(variable);
     }
     if (choice.empty()) {
         return {default_device(list)};

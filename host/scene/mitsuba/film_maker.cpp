@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "host/base/words.h"
 #include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {

@@ -27,7 +27,7 @@ struct MeshSource {
     std::string type;
     /// Among the meshes of the file. Empty: the first one of a serialized file, or all of an OBJ file.
     std::optional<int> index{};
-    std::string attribute;                  ///< which textures look up
+    std::string attribute;                       ///< which textures look up
     PlyCode color_code = PlyCode::as_it_stands;  ///< of a PLY file
     /// Normals are made anew, with creases where faces meet at a greater angle; empty if those of the file
     /// count.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/base/words.h"
 #include "host/scene/mitsuba/values.h"
 
 namespace nearlight::core::mitsuba {

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "host/base/words.h"
 #include "host/scene/mitsuba/film_maker.h"
 #include "host/scene/mitsuba/values.h"
 

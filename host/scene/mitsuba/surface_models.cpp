@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/base/words.h"
 #include "host/scene/mitsuba/optics_tables.h"
 #include "host/scene/mitsuba/values.h"
 #include "host/scene/number_pair.h"

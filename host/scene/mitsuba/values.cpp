@@ -43,13 +43,6 @@ std::string snake_case(const std::string& name) {
     return snake;
 }
 
-std::string lower_case(std::string text) {
-    for (char& c : text) {
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return text;
-}
-
 double parse_number(const std::string& text, const Location& where) {
     const std::optional<double> number = number_in(text);
     if (!number || !std::isfinite(*number)) {

@@ -12,8 +12,6 @@ namespace nearlight::core::mitsuba {
 
 /// Turns "toWorld" into "to_world", and "intIOR" into "int_ior".
 std::string snake_case(const std::string& name);
-/// The text with small letters, as in names of choices, which Mitsuba compares so.
-std::string lower_case(std::string text);
 /// The number that the whole text is. Calls fail() for any other text.
 double parse_number(const std::string& text, const Location& where);
 /// The words that commas or white space separate.
