@@ -36,7 +36,7 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/nearlight")
 # Most of the time of a build goes into headers (opencl.hpp, CLI11, json.hpp, gtest.h). Several sources in one
 # compilation read them and instantiate their templates only once.
 function(nearlight_compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEARLIGHT_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEARLIGHT_UNITY} UNITY_BUILD_BATCH_SIZE 32)
 endfunction()
 
 # The shared library (host/library) contains rooms, and exports none of their symbols.

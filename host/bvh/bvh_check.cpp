@@ -21,7 +21,7 @@ Aabb intersection(const Aabb& a, const Aabb& b) {
 }
 
 /// An entry of a cut triangle. Rays can meet only the part of it that lies in all boxes above.
-struct Part {
+struct CutTriangle {
     uint triangle;
     Aabb box;
 };
@@ -169,16 +169,17 @@ class Checker {
     /// Checks that points all over a cut triangle each lie in a box of one of its entries.
     void check_parts() {
         std::stable_sort(parts_.begin(), parts_.end(),
-                         [](const Part& a, const Part& b) { return a.triangle < b.triangle; });
+                         [](const CutTriangle& a, const CutTriangle& b) { return a.triangle < b.triangle; });
         for (auto first = parts_.begin(); first != parts_.end();) {
-            const auto last = std::find_if(
-                first, parts_.end(), [&](const Part& part) { return part.triangle != first->triangle; });
+            const auto last = std::find_if(first, parts_.end(), [&](const CutTriangle& part) {
+                return part.triangle != first->triangle;
+            });
             check_cover({first, last});
             first = last;
         }
     }
 
-    void check_cover(std::span<const Part> parts) {
+    void check_cover(std::span<const CutTriangle> parts) {
         const Triangle& triangle = scene_.triangles[parts.front().triangle];
         const Vec3 v0 = scene_.vertices[triangle.v0].position;
         const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
@@ -188,7 +189,7 @@ class Checker {
                 const Vec3 p = v0 + edge1 * (static_cast<float>(i) / kCoverSteps) +
                                edge2 * (static_cast<float>(j) / kCoverSteps);
                 if (std::none_of(parts.begin(), parts.end(),
-                                 [&](const Part& part) { return contains(part.box, p); })) {
+                                 [&](const CutTriangle& part) { return contains(part.box, p); })) {
                     complain("scene triangle " + std::to_string(parts.front().triangle) +
                              ": its parts leave a hole");
                     return;
@@ -202,7 +203,7 @@ class Checker {
     std::vector<int> node_visits_;
     std::vector<int> triangle_visits_;
     std::vector<uint> entries_;  ///< number of entries of each triangle of the scene
-    std::vector<Part> parts_;
+    std::vector<CutTriangle> parts_;
     std::vector<std::string> complaints_;
     int deepest_ = 0;
 };

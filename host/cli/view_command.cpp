@@ -31,7 +31,7 @@ constexpr const char* kModule = "nearlight-viewer.so";
 
 /// Maximum number of pixels: the viewer keeps a few pictures with all layers in memory, about 100 bytes a
 /// pixel each.
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
+constexpr std::int64_t kMaxWindowPixels = std::int64_t{1} << 25;
 
 struct ViewOptions {
     SceneOptions scene;
@@ -152,10 +152,10 @@ std::size_t layer_index(const std::string& name) {
 RenderSettings settled(const ViewOptions& options) {
     RenderSettings settings = options.settings;
     settle(options.method, settings);
-    if (std::int64_t{options.size.width} * options.size.height > kMaxPixels) {
+    if (std::int64_t{options.size.width} * options.size.height > kMaxWindowPixels) {
         throw Error(ErrorKind::out_of_memory,
                     fmt::format("{}x{} pixels are too many for a window: the maximum is {} million",
-                                options.size.width, options.size.height, kMaxPixels >> 20));
+                                options.size.width, options.size.height, kMaxWindowPixels >> 20));
     }
     if (options.size.width > 0) {
         settings.view.width = options.size.width;

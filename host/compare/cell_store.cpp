@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Change this when the meaning of a cell's contents changes.
-constexpr const char* kFormat = "cell 1";
+constexpr const char* kCellFormat = "cell 1";
 
 /// Reads a number; NaN and infinity, which JSON cannot represent, are stored as null.
 double number(const Json& value) {
@@ -72,7 +72,8 @@ Cell from_json(const Json& json, const CellId& id) {
 std::filesystem::path CellStore::file_stem_of(const CellId& id) const {
     const std::string name =
         file_stem(id.method) + "-" + std::to_string(id.vpls) + "-seed" + std::to_string(id.seed);
-    return folder_ / (name + "-" + hex_digits(hash64(std::string(kFormat) + "|" + conditions_ + "|" + name)));
+    return folder_ /
+           (name + "-" + hex_digits(hash64(std::string(kCellFormat) + "|" + conditions_ + "|" + name)));
 }
 
 std::optional<Cell> CellStore::load(const CellId& id) const {

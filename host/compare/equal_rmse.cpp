@@ -11,7 +11,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Factor beyond the measured counts up to which the fits are trusted.
 constexpr double kTrustedFactor = 2.0;
 /// Factor beyond the largest measured count up to which the fits give at least an order of magnitude.

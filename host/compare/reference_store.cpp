@@ -15,10 +15,10 @@ namespace nearlight::core {
 namespace {
 
 /// Change this when a change of the program changes references.
-constexpr const char* kFormat = "reference 1";
+constexpr const char* kReferenceFormat = "reference 1";
 
 std::string description(const ReferenceSpec& spec) {
-    return std::string(kFormat) + "|" + method_name(spec) + "|" + hex_digits(spec.scene_hash) + "|" +
+    return std::string(kReferenceFormat) + "|" + method_name(spec) + "|" + hex_digits(spec.scene_hash) + "|" +
            std::to_string(spec.width) + "x" + std::to_string(spec.height) + "|" +
            exact_text(spec.clamp_radius) + "|" + std::to_string(spec.max_depth) + "|" +
            (spec.pixel_centers ? "centres" : "areas");

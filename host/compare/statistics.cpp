@@ -11,8 +11,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 bool is_usable(double value) {
     return std::isfinite(value) && value > 0.0;
 }

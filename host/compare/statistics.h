@@ -7,10 +7,14 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace nearlight::core {
+
+/// What a value is that nobody knows.
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {
     double mean = 0;

@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kNone = ~0u;
+constexpr uint kNoSet = ~0u;
 /// How many triangles at one side are compared with each other. Surfaces have two there.
 constexpr std::size_t kMaxTogether = 8;
 
@@ -167,7 +167,7 @@ void add_crease_normals(Mesh& mesh, std::span<const uint> places, std::span<cons
     for (uint corner = 0; corner < corners; ++corner) {
         // Flat triangles share their vertices, as if all their corners were one set.
         const bool is_flat = groups[corner / 3] == kFlat;
-        const uint set = is_flat ? kNone : sets.find(corner);
+        const uint set = is_flat ? kNoSet : sets.find(corner);
         const Vec3 normal = is_flat || is_zero(normals[set]) ? Vec3{0, 0, 0} : normalize(normals[set]);
         triangles[corner / 3][corner % 3] =
             splitter.vertex(set, mesh.triangles[corner / 3][corner % 3], normal);

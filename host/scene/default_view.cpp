@@ -12,7 +12,7 @@ constexpr float kFilled = 0.88f;  // share of the frame's width or height that t
 // The direction from the middle of the box towards the camera.
 constexpr Vec3 kTowardsCamera{0.45f, 0.4f, 0.8f};
 constexpr Vec3 kTowardsLamp{-0.5f, 0.8f, 0.7f};
-constexpr int kSkyWidth = 128;  // pixels
+constexpr int kViewSkyWidth = 128;  // pixels
 
 /// The radiance of the neutral sky: grey, dark below, where the camera sees it behind things, with a wide
 /// lamp that shows their shapes.
@@ -25,8 +25,8 @@ Vec3 neutral_radiance(Vec3 direction) {
 
 EnvironmentLight neutral_sky() {
     EnvironmentLight sky;
-    sky.width = kSkyWidth;
-    sky.height = kSkyWidth / 2;
+    sky.width = kViewSkyWidth;
+    sky.height = kViewSkyWidth / 2;
     sky.is_interpolated = true;
     for (int row = 0; row < sky.height; ++row) {
         const float theta = kPi * static_cast<float>(row) / static_cast<float>(sky.height - 1);

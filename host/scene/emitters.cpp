@@ -14,10 +14,8 @@
 namespace nearlight::core {
 namespace {
 
-constexpr double kPiD = std::numbers::pi;
-
 double row_sine(int row, int height) {
-    return std::sin(kPiD * (row + 0.5) / height);
+    return std::sin(std::numbers::pi * (row + 0.5) / height);
 }
 
 /// The integral ∫ L dω over all directions. A pixel of row j covers (2π/width)·(cos θ_j − cos θ_{j+1}) =
@@ -35,7 +33,8 @@ Vec3 sphere_integral(const EnvironmentLight& environment) {
         }
     }
     const double scale = environment.width > 0 && environment.height > 0
-                             ? 4 * kPiD / environment.width * std::sin(kPiD / (2.0 * environment.height))
+                             ? 4 * std::numbers::pi / environment.width *
+                                   std::sin(std::numbers::pi / (2.0 * environment.height))
                              : 0.0;
     return {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
             static_cast<float>(sum[2] * scale)};
@@ -46,7 +45,7 @@ Vec3 sphere_integral(const EnvironmentLight& environment) {
 double spot_solid_angle(double beam, double cutoff) {
     const double mean_cosine =
         cutoff - beam > 1e-6 ? (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam) : std::cos(cutoff);
-    return 2 * kPiD * (1 - mean_cosine);
+    return 2 * std::numbers::pi * (1 - mean_cosine);
 }
 
 /// The mean of the light's image.
@@ -58,16 +57,16 @@ Vec3 mean_image(const Scene& scene, const Emitter& emitter) {
 /// the scene's sphere.
 double emitted_power(const Scene& scene, const Emitter& emitter, float scene_radius) {
     const double radiance = luminance(emitter.radiance * mean_image(scene, emitter));
-    const double scene_disc = kPiD * scene_radius * scene_radius;
+    const double scene_disc = std::numbers::pi * scene_radius * scene_radius;
     switch (emitter.type) {
         case NEARLIGHT_EMITTER_POINT:
-            return 4 * kPiD * radiance;
+            return 4 * std::numbers::pi * radiance;
         case NEARLIGHT_EMITTER_SPOT:
             return spot_solid_angle(emitter.beam_angle, emitter.cutoff_angle) * radiance;
         case NEARLIGHT_EMITTER_TRIANGLE:
         case NEARLIGHT_EMITTER_SPHERE:
         case NEARLIGHT_EMITTER_CYLINDER:
-            return kPiD * emitter.area * radiance;
+            return std::numbers::pi * emitter.area * radiance;
         case NEARLIGHT_EMITTER_DIRECTIONAL:
             return scene_disc * radiance;
         case NEARLIGHT_EMITTER_SUN:
@@ -76,7 +75,7 @@ double emitted_power(const Scene& scene, const Emitter& emitter, float scene_rad
             return emitter.area * radiance;
         default:
             // From each direction light passes through the sphere's disc: πR²·∫ L dω, and ∫ L dω = 4π·mean.
-            return scene_disc * 4 * kPiD * radiance;
+            return scene_disc * 4 * std::numbers::pi * radiance;
     }
 }
 
@@ -142,7 +141,7 @@ std::vector<Emitter> collect_emitters(const Scene& scene) {
         emitter.type = NEARLIGHT_EMITTER_SUN;
         emitter.direction = -scene.environment.sun_direction;
         emitter.radiance = scene.environment.sun_radiance;
-        emitter.area = static_cast<float>(2.0 * kPiD * sun_height(scene.environment));
+        emitter.area = static_cast<float>(2.0 * std::numbers::pi * sun_height(scene.environment));
         emitters.push_back(emitter);
     }
     if (scene.environment.width > 0) {

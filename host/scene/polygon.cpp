@@ -9,17 +9,17 @@ namespace {
 
 using Triangle3 = std::array<uint, 3>;
 
-struct Point {
+struct PlanePoint {
     double x, y;
 };
 
 /// Twice the signed area of a triangle: above 0 if it runs counter-clockwise.
-double turn(Point a, Point b, Point c) {
+double turn(PlanePoint a, PlanePoint b, PlanePoint c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// The corners in the plane in which the polygon is largest, running counter-clockwise.
-std::vector<Point> flattened(std::span<const Vec3> corners) {
+std::vector<PlanePoint> flattened(std::span<const Vec3> corners) {
     std::array<double, 3> normal{};
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec3 a = corners[i] - corners[0];
@@ -31,11 +31,13 @@ std::vector<Point> flattened(std::span<const Vec3> corners) {
     const auto size = [&](int axis) { return std::abs(normal[static_cast<std::size_t>(axis)]); };
     const int axis = size(0) > size(1) && size(0) > size(2) ? 0 : size(1) > size(2) ? 1 : 2;
     const bool is_behind = normal[static_cast<std::size_t>(axis)] < 0;
-    std::vector<Point> points;
+    std::vector<PlanePoint> points;
     points.reserve(corners.size());
     for (const Vec3& corner : corners) {
         const Vec3 p = corner - corners[0];
-        Point point = axis == 0 ? Point{p.y, p.z} : axis == 1 ? Point{p.z, p.x} : Point{p.x, p.y};
+        PlanePoint point = axis == 0   ? PlanePoint{p.y, p.z}
+                           : axis == 1 ? PlanePoint{p.z, p.x}
+                                       : PlanePoint{p.x, p.y};
         if (is_behind) {
             std::swap(point.x, point.y);
         }
@@ -44,7 +46,7 @@ std::vector<Point> flattened(std::span<const Vec3> corners) {
     return points;
 }
 
-bool turns_left_only(std::span<const Point> points) {
+bool turns_left_only(std::span<const PlanePoint> points) {
     const std::size_t count = points.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (turn(points[i], points[(i + 1) % count], points[(i + 2) % count]) < 0) {
@@ -57,7 +59,7 @@ bool turns_left_only(std::span<const Point> points) {
 /// A polygon from which corners are cut off.
 class EarCutter {
   public:
-    explicit EarCutter(std::span<const Point> points) : points_(points) {
+    explicit EarCutter(std::span<const PlanePoint> points) : points_(points) {
         const auto count = static_cast<uint>(points.size());
         for (uint i = 0; i < count; ++i) {
             next_.push_back(i + 1 < count ? i + 1 : 0);
@@ -102,23 +104,23 @@ class EarCutter {
 
     /// Only a corner that is a notch can be the one that lies in an ear.
     [[nodiscard]] bool is_ear(uint at) const {
-        const Point a = points_[previous_[at]];
-        const Point b = points_[at];
-        const Point c = points_[next_[at]];
+        const PlanePoint a = points_[previous_[at]];
+        const PlanePoint b = points_[at];
+        const PlanePoint c = points_[next_[at]];
         if (!(turn(a, b, c) > 0)) {
             return false;
         }
         return std::ranges::none_of(notches_, [&](uint notch) {
-            const Point p = points_[notch];
+            const PlanePoint p = points_[notch];
             const bool is_corner = notch == previous_[at] || notch == at || notch == next_[at];
             return !is_corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 &&
                    !is_same(p, a) && !is_same(p, c);
         });
     }
     /// Polygons with holes touch themselves along a cut, where two corners are at one place.
-    static bool is_same(Point p, Point q) { return p.x == q.x && p.y == q.y; }
+    static bool is_same(PlanePoint p, PlanePoint q) { return p.x == q.x && p.y == q.y; }
 
-    std::span<const Point> points_;
+    std::span<const PlanePoint> points_;
     std::vector<uint> next_, previous_;  // corners that are left
     std::vector<uint> notches_;          // those of them at which the polygon does not turn left
 };
@@ -141,7 +143,7 @@ std::vector<Triangle3> triangulate(std::span<const Vec3> corners) {
     if (corners.size() < 4 || corners.size() > kMaxEarCorners) {
         return fan(corners.size());
     }
-    const std::vector<Point> points = flattened(corners);
+    const std::vector<PlanePoint> points = flattened(corners);
     return turns_left_only(points) ? fan(corners.size()) : EarCutter(points).cut();
 }
 

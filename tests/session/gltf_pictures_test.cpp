@@ -14,7 +14,7 @@ namespace {
 
 using test::json;
 
-constexpr int kSize = 8;  // pixels
+constexpr int kPictureSize = 8;  // pixels
 
 class GltfPictures : public test::DeviceTest {
   protected:
@@ -33,7 +33,7 @@ class GltfPictures : public test::DeviceTest {
         options.overrides.environment = environment;
         const Scene scene = load_scene(files_.write("scene.gltf", gltf_.text()), options);
         RenderSettings settings = test::few_vpls();
-        settings.view.width = settings.view.height = kSize;
+        settings.view.width = settings.view.height = kPictureSize;
         settings.view.max_depth = 4;
         settings.gather.samples_per_pixel = 64;
         const Image image = test::render_image(device, scene, settings).image;
@@ -85,12 +85,12 @@ TEST_F(GltfPictures, AlphasOfVerticesFade) {
     on_each_device([&](Device& device) {
         const std::vector<float> values = red(device, "1");
         const float width = 2 * std::tan(0.35f);  // of the picture, at the distance of the square
-        for (int column = 0; column < kSize; ++column) {
+        for (int column = 0; column < kPictureSize; ++column) {
             float sum = 0;
-            for (int row = 0; row < kSize; ++row) {
-                sum += values[static_cast<std::size_t>(row * kSize + column)] / kSize;
+            for (int row = 0; row < kPictureSize; ++row) {
+                sum += values[static_cast<std::size_t>(row * kPictureSize + column)] / kPictureSize;
             }
-            const float alpha = 0.5f + width * ((static_cast<float>(column) + 0.5f) / kSize - 0.5f);
+            const float alpha = 0.5f + width * ((static_cast<float>(column) + 0.5f) / kPictureSize - 0.5f);
             EXPECT_NEAR(sum, 1 - alpha, 0.08f) << column;
         }
     });
@@ -117,8 +117,8 @@ TEST_F(GltfPictures, ThingsThatAreMirroredMakeAMirroredPicture) {
         const std::vector<float> mirrored = picture(device, -1);
         EXPECT_GT(mean(straight), 0.05f);
         for (std::size_t i = 0; i < straight.size(); ++i) {
-            const std::size_t row = i / kSize;
-            const std::size_t other = row * kSize + (kSize - 1 - i % kSize);
+            const std::size_t row = i / kPictureSize;
+            const std::size_t other = row * kPictureSize + (kPictureSize - 1 - i % kPictureSize);
             EXPECT_NEAR(straight[i], mirrored[other], 0.03f * straight[i]) << i;
         }
     });

@@ -11,12 +11,12 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kWidth = 3;
+constexpr uint kRowWidth = 3;
 constexpr uint kSamples = 8;
 
 /// A band of rows of random layers and splats.
 std::vector<float> random_band(uint rows, uint reach, Pcg32& random) {
-    std::vector<float> band(std::size_t{kWidth} * rows * band_floats_per_pixel(reach));
+    std::vector<float> band(std::size_t{kRowWidth} * rows * band_floats_per_pixel(reach));
     for (float& value : band) {
         value = random.uniform() + 0.1f;
     }
@@ -26,12 +26,12 @@ std::vector<float> random_band(uint rows, uint reach, Pcg32& random) {
 /// Rows of a band, as a device delivers them: layers first.
 std::vector<float> rows_of(const std::vector<float>& band, uint rows, uint reach, uint first, uint count) {
     const std::size_t splats = band_floats_per_pixel(reach) - NEARLIGHT_LAYER_CHANNELS;
-    const std::size_t layers_end = std::size_t{kWidth} * rows * NEARLIGHT_LAYER_CHANNELS;
+    const std::size_t layers_end = std::size_t{kRowWidth} * rows * NEARLIGHT_LAYER_CHANNELS;
     std::vector<float> part;
     for (const auto& [begin, size] :
          {std::pair{std::size_t{0}, std::size_t{NEARLIGHT_LAYER_CHANNELS}}, std::pair{layers_end, splats}}) {
-        const auto from = band.begin() + static_cast<std::ptrdiff_t>(begin + first * kWidth * size);
-        part.insert(part.end(), from, from + static_cast<std::ptrdiff_t>(count * kWidth * size));
+        const auto from = band.begin() + static_cast<std::ptrdiff_t>(begin + first * kRowWidth * size);
+        part.insert(part.end(), from, from + static_cast<std::ptrdiff_t>(count * kRowWidth * size));
     }
     return part;
 }
@@ -39,7 +39,7 @@ std::vector<float> rows_of(const std::vector<float>& band, uint rows, uint reach
 /// The rows that come out where bands of so many rows go in.
 std::vector<float> finished(const std::vector<float>& band, uint rows, uint reach,
                             const std::vector<uint>& heights) {
-    SplatRows splats(kWidth, reach, kSamples);
+    SplatRows splats(kRowWidth, reach, kSamples);
     std::vector<float> result;
     uint first = 0;
     for (const uint height : heights) {
@@ -58,7 +58,7 @@ TEST(SplatRows, BandsDoNotChangeABit) {
         Pcg32 random(reach);
         const std::vector<float> band = random_band(11, reach, random);
         const std::vector<float> whole = finished(band, 11, reach, {11});
-        EXPECT_EQ(whole.size(), std::size_t{kWidth} * 11 * NEARLIGHT_LAYER_CHANNELS);
+        EXPECT_EQ(whole.size(), std::size_t{kRowWidth} * 11 * NEARLIGHT_LAYER_CHANNELS);
         EXPECT_EQ(finished(band, 11, reach, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}), whole);
         EXPECT_EQ(finished(band, 11, reach, {8, 3}), whole);
         EXPECT_EQ(finished(band, 11, reach, {1, 9, 1}), whole);
@@ -68,8 +68,8 @@ TEST(SplatRows, BandsDoNotChangeABit) {
 TEST(SplatRows, RowsComeWhenAllThatReachThemAreThere) {
     Pcg32 random(3);
     const std::vector<float> band = random_band(8, 2, random);
-    SplatRows splats(kWidth, 2, kSamples);
-    const std::size_t row = std::size_t{kWidth} * NEARLIGHT_LAYER_CHANNELS;
+    SplatRows splats(kRowWidth, 2, kSamples);
+    const std::size_t row = std::size_t{kRowWidth} * NEARLIGHT_LAYER_CHANNELS;
     std::vector<std::size_t> counts;
     for (const auto& [first, count] : {std::pair{0u, 2u}, {2u, 1u}, {3u, 5u}}) {
         std::vector<float> part = rows_of(band, 8, 2, first, count);
@@ -84,7 +84,7 @@ TEST(SplatRows, WithoutReachRowsPassUnchanged) {
     Pcg32 random(4);
     const std::vector<float> band = random_band(4, 0, random);
     std::vector<float> rows = band;
-    SplatRows splats(kWidth, 0, kSamples);
+    SplatRows splats(kRowWidth, 0, kSamples);
     splats.take(rows);
     EXPECT_EQ(rows, band);
     EXPECT_TRUE(splats.finish().empty());

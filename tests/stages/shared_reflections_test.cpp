@@ -23,7 +23,7 @@ using test::Brought;
 class SharedReflectionsTest : public test::DeviceTest {};
 
 constexpr std::size_t kGlossyReceivers = std::size_t{NEARLIGHT_BUNDLE_PACKETS} * NEARLIGHT_PACKET_SIZE;
-constexpr float kHeight = 1.0f;  // of the ceiling above the floor, m
+constexpr float kRoomHeight = 1.0f;  // of the ceiling above the floor, m
 
 Material metal(float alpha) {
     Material material = conductor_material({0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.2f});
@@ -49,7 +49,7 @@ std::vector<ReceiverPacket> receivers_on_the_ceiling() {
     for (std::size_t i = 0; i < kGlossyReceivers; ++i) {
         const float x = 0.3f + 0.02f * static_cast<float>(i % 16) + (i + 3 >= kGlossyReceivers ? 1.2f : 0.0f);
         const float z = 0.1f + 0.02f * static_cast<float>(i / 16);
-        points.push_back({{x, kHeight, z}, i % 5 == 4 ? Vec3{0, 0, 0} : Vec3{0, -1, 0}});
+        points.push_back({{x, kRoomHeight, z}, i % 5 == 4 ? Vec3{0, 0, 0} : Vec3{0, -1, 0}});
     }
     return test::pack_receivers(points);
 }
@@ -133,7 +133,8 @@ TEST_F(SharedReflectionsTest, BringWhatOwnRaysBringOfTwoLamps) {
         for (const auto& [x, radiance] : {std::pair{0.8f, 10.0f}, {-1.9f, 60.0f}}) {
             Material lamp = lambertian({0, 0, 0});
             lamp.emission = parameter_of(radiance);
-            add_quad(scene, {x, 0.9f * kHeight, 0}, {0.6f, 0, 0}, {0, 0, 0.6f}, add_material(scene, lamp));
+            add_quad(scene, {x, 0.9f * kRoomHeight, 0}, {0.6f, 0, 0}, {0, 0, 0.6f},
+                     add_material(scene, lamp));
         }
         expect_what_own_rays_bring(device, scene);
     });

@@ -19,7 +19,7 @@ using namespace small_scenes;
 
 class SharedSkyTest : public test::DeviceTest {};
 
-constexpr int kSide = 16;  // pixels of the picture's width and height
+constexpr int kPictureSide = 16;  // pixels of the picture's width and height
 
 /// A room under a roof, with a window at each side, a table, and a sky of many colours. The camera looks at
 /// the table and at the floor, which reflects a window.
@@ -75,18 +75,18 @@ struct Search {
 Light find_light(Device& device, const Scene& scene, const Search& search) {
     const Bvh bvh = build_scene_bvh(scene);
     const DeviceScene on_device = upload_scene(device, scene, bvh, search.kernel);
-    const Camera camera = make_camera(scene.camera, kSide, kSide);
+    const Camera camera = make_camera(scene.camera, kPictureSide, kPictureSide);
     const CloseRange region = make_close_range(camera, 1.0f);
     const Buffer<Camera> cameras(device, std::span(&camera, 1));
     const Buffer<CloseRange> regions(device, std::span(&region, 1));
-    const CameraBatch camera_batch{.tile_row_count = tiles_across(static_cast<uint>(kSide)),
+    const CameraBatch camera_batch{.tile_row_count = tiles_across(static_cast<uint>(kPictureSide)),
                                    .branch_count = 2,
                                    .bundle_columns = 2,
                                    .bundle_rows = 2,
                                    .max_depth = 4,
                                    .light_rays = search.rays,
                                    .sky_rays = search.shared ? search.rays : 0};
-    const std::size_t packets = packet_count(camera_batch, static_cast<uint>(kSide));
+    const std::size_t packets = packet_count(camera_batch, static_cast<uint>(kPictureSide));
     const std::size_t count = packets * NEARLIGHT_PACKET_SIZE;
     Buffer<ReceiverPacket> receivers(device, packets);
     Buffer<CameraVertex> vertices(device, count);
@@ -106,8 +106,9 @@ Light find_light(Device& device, const Scene& scene, const Search& search) {
                                             .clamp_radius = 0.1f,
                                             .seed = 50u + static_cast<uint>(seed),
                                             .shares_sky = true};
-        camera_pass.run({on_device, cameras, static_cast<uint>(kSide), regions, camera_batch, settings.seed},
-                        {receivers, vertices, &seen});
+        camera_pass.run(
+            {on_device, cameras, static_cast<uint>(kPictureSide), regions, camera_batch, settings.seed},
+            {receivers, vertices, &seen});
         const ReceiverBatch batch{on_device, receivers, packets, settings};
         if (search.shared) {
             paths.run_sharing(batch, direct, indirect, found);

@@ -21,7 +21,7 @@ using test::SceneOnDevice;
 constexpr Vec3 kWall{0, 0, -1};  ///< the normal of the wall
 constexpr float kDistance = 1.0f;
 
-constexpr float kAlbedo = 0.5f;
+constexpr float kWallAlbedo = 0.5f;
 
 /// A wall, with or without a coat, before the origin, where a point light is. Its vertices have a normal that
 /// leans.
@@ -31,7 +31,7 @@ struct LeaningWall {
     Vec3 shading = normalize({0.6f, 0.4f, -1.0f});
 
     explicit LeaningWall(bool has_coat = true) {
-        constexpr Vec3 kGrey{kAlbedo, kAlbedo, kAlbedo};
+        constexpr Vec3 kGrey{kWallAlbedo, kWallAlbedo, kWallAlbedo};
         const Material material = has_coat ? coated(scene, kGrey, {.eta = 1.5}) : lambertian(kGrey);
         curve = material.curve;
         add_quad(scene, {-1, -1, kDistance}, {0, 2, 0}, {2, 0, 0}, add_material(scene, material));
@@ -103,7 +103,7 @@ double reflected_by(const LeaningWall& wall) {
         const float cosine = -dot(place, wall.shading) / distance;
         sum += static_cast<double>(std::max(cosine, 0.0f) / (distance * distance)) * 4 / (kSteps * kSteps);
     }
-    return kAlbedo * sum;
+    return kWallAlbedo * sum;
 }
 
 TEST_F(VplSurfaceTest, DepositsReflectWhatArrivesByTheNormalThatLeans) {

@@ -25,7 +25,7 @@
 namespace nearlight::core {
 namespace {
 
-constexpr uint kNone = std::numeric_limits<uint>::max();
+constexpr uint kNoIndex = std::numeric_limits<uint>::max();
 
 int line_of_face(std::string_view text, std::size_t face) {
     int found = 0;
@@ -211,7 +211,7 @@ class ObjBuilder {
         const auto signed_count = static_cast<long long>(count);
         const long long at = index > 0 ? index - 1LL : signed_count + index;
         if (index == 0 && !required) {
-            return kNone;
+            return kNoIndex;
         }
         if (index == 0 || at < 0 || at >= signed_count) {
             throw Error(ErrorKind::file, obj_.mesh.source.string() + ":" +
@@ -232,13 +232,13 @@ class ObjBuilder {
             return known->second;
         }
         obj_.mesh.positions.push_back(positions[p]);
-        obj_.mesh.uvs.push_back(t == kNone ? std::array<float, 2>{0, 0} : uvs[t]);
-        obj_.mesh.normals.push_back(n == kNone ? Vec3{0, 0, 0} : normals[n]);
+        obj_.mesh.uvs.push_back(t == kNoIndex ? std::array<float, 2>{0, 0} : uvs[t]);
+        obj_.mesh.normals.push_back(n == kNoIndex ? Vec3{0, 0, 0} : normals[n]);
         if (!colors_.empty()) {
             obj_.mesh.colors.push_back(p < colors_.size() ? colors_[p] : kNoColor);
         }
-        any_uv_ = any_uv_ || t != kNone;
-        any_normal_ = any_normal_ || n != kNone;
+        any_uv_ = any_uv_ || t != kNoIndex;
+        any_normal_ = any_normal_ || n != kNoIndex;
         return made;
     }
 

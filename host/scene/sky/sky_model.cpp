@@ -10,7 +10,6 @@
 namespace nearlight::core {
 namespace {
 
-constexpr double kPiD = std::numbers::pi;
 // Mitsuba's radiance is divided by the integral of the standard observer's y.
 constexpr double kSkyScale = 1.0 / 106.7502593994140625;
 
@@ -30,7 +29,7 @@ double sky_entry(const float* table, int stride, int entry, double turbidity, do
                  double elevation) {
     constexpr double kBinomials[kSkyControlPoints] = {1, 5, 10, 10, 5, 1};
     const Between by_turbidity(turbidity - 1.0, kSkyTurbidities);
-    const double x = std::min(std::cbrt(2.0 * elevation / kPiD), 1.0 - 1e-7);
+    const double x = std::min(std::cbrt(2.0 * elevation / std::numbers::pi), 1.0 - 1e-7);
     const auto value = [&](int t, int a, int point) {
         return static_cast<double>(
             table[((t * kSkyAlbedos + a) * kSkyControlPoints + point) * stride + entry]);
@@ -77,7 +76,7 @@ Vec3 SkyModel::radiance(double cos_zenith, double gamma) const {
 
 Vec3 sun_irradiance(double turbidity, double sun_elevation) {
     const Between by_turbidity(turbidity - 1.0, kSkyTurbidities);
-    const Between by_elevation((sun_elevation * 180.0 / kPiD - 2.0) / 3.0, kSunElevations);
+    const Between by_elevation((sun_elevation * 180.0 / std::numbers::pi - 2.0) / 3.0, kSunElevations);
     const auto channel = [&](int c) {
         const auto at = [&](int t) {
             const auto value = [&](int e) {
@@ -92,7 +91,7 @@ Vec3 sun_irradiance(double turbidity, double sun_elevation) {
 }
 
 Vec3 sun_direction(const PlaceAndTime& when) {
-    const double radian = kPiD / 180.0;
+    const double radian = std::numbers::pi / 180.0;
     // Days since noon of 1 January 2000, Universal Time.
     const double hours = when.hour - when.timezone + (when.minute + when.second / 60.0) / 60.0;
     const int early = (when.month - 14) / 12;
@@ -115,7 +114,7 @@ Vec3 sun_direction(const PlaceAndTime& when) {
                               std::sin(declination) * std::sin(latitude));
     const double azimuth = std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) -
                                                                  std::sin(latitude) * std::cos(hour_angle)) -
-                           kPiD;
+                           std::numbers::pi;
     constexpr double kParallax = 6371.01 / 149597890.0;  // Earth's radius in astronomical units
     zenith += kParallax * std::sin(zenith);
     return {static_cast<float>(std::sin(zenith) * std::cos(azimuth)),
