@@ -84,9 +84,11 @@ std::string reworded(const std::string& text) {
     const std::pair<std::regex, const char*> kWordings[] = {
         {std::regex("(.*): 1 required (.*) missing"), "$1 needs a value, $2"},
         {std::regex("(.*): At Most 1 required but received (.*)"), "$1 is given $2 times; give it once"},
-        {std::regex("(.*): Value (.*) not in range ([0-9]+) to ([0-9]+)"),
+        // CLI11 2.1 writes the ends of a range as in "1 to 9", and 2.4 as in "[1 - 9]".
+        {std::regex(R"((.*): Value (.*) not in range \[?([0-9]+)(?: to | - )([0-9]+)\]?)"),
          "$1: '$2' is no whole number from $3 to $4"},
-        {std::regex("(.*): Value (.*) not in range (.*) to (.*)"), "$1: '$2' is no number from $3 to $4"},
+        {std::regex(R"((.*): Value (.*) not in range \[?(.*)(?: to | - )([^\]]*)\]?)"),
+         "$1: '$2' is no number from $3 to $4"},
         {std::regex("Could not convert: (.*) = (.*)"), "$1: '$2' is no value that it takes"}};
     for (const auto& [pattern, wording] : kWordings) {
         if (std::regex_match(text, pattern)) {

@@ -42,8 +42,11 @@ class VirtualDisplay {
 
     /// False if there is no Xvfb.
     [[nodiscard]] bool is_there() const { return !number_.empty(); }
-    /// The words of a shell that run a program on this display.
-    [[nodiscard]] std::string prefix() const { return "env -u WAYLAND_DISPLAY DISPLAY=:" + number_; }
+    /// The words of a shell that run a program on this display. Mesa is told that there is no GPU, because it
+    /// else looks for one and complains about its absence on standard error.
+    [[nodiscard]] std::string prefix() const {
+        return "env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=:" + number_;
+    }
     void end() {
         if (server_ > 0) {
             kill(server_, SIGKILL);
