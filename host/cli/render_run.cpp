@@ -293,7 +293,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     RenderHooks hooks{.forecast = tell_once(bar, bar_label(run), run.settings, seconds_before),
                       .watcher = watcher,
                       .vpls = start.vpls};
-    hooks.start = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
+    hooks.open = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
         save(run.options.vpl_files, session, view, vpls);
         sinks.open(run, started, view);
     };

@@ -68,7 +68,7 @@ SceneBench::FirstLook SceneBench::look() {
     overview_ = make_picture(settings_.width, settings_.height);
     overview_.values.clear();
     RenderHooks hooks;
-    hooks.start = [&](const RenderReport&, const View& view, const VplSet& vpls) {
+    hooks.open = [&](const RenderReport&, const View& view, const VplSet& vpls) {
         facts_.camera = view.scene_camera;
         found.surface = !view.pilot.distances.empty();
         found.close_vpls = settings.sampling.sampler != SamplerKind::close_range || vpls.close_count > 0;

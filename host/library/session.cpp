@@ -197,7 +197,7 @@ Picture render_picture(core::Session& session, const RenderSettings& settings, c
     Picture picture;
     ImageFiller fill(picture.image);
     core::RenderHooks hooks{.vpls = vpls};
-    hooks.start = [&](const core::RenderReport& started, const core::View&, const core::VplSet&) {
+    hooks.open = [&](const core::RenderReport& started, const core::View&, const core::VplSet&) {
         picture.image = blank_picture(started.width, started.height);
     };
     hooks.rows = [&](std::span<const float> rows) { fill(rows); };

@@ -35,7 +35,7 @@ void render_once(Session& session, const RenderSettings& settings, uint samples,
                  RenderReport& report) {
     Prepared pass = prepare(session, with_samples(settings, samples), hooks.vpls, report);
     scale_light_samples(settings, pass);
-    hooks.start(report, pass.view, pass.vpls);
+    hooks.open(report, pass.view, pass.vpls);
     gather(session, pass, hooks.rows, hooks.progress, report);
 }
 

@@ -49,7 +49,7 @@ struct RenderReport {
 /// Called when all settings are decided and before the first row, so that files can be opened with the right
 /// size and metadata. View and VPLs are those of the first pass. If there are several passes, it is called
 /// after the last of them.
-using RenderStart = std::function<void(const RenderReport&, const View&, const VplSet&)>;
+using PictureOpener = std::function<void(const RenderReport&, const View&, const VplSet&)>;
 
 /// Called after each pass but the last of a picture that is made until it reaches an error.
 using ForecastSink = std::function<void(const PassForecast&)>;
@@ -82,7 +82,7 @@ using VplMaker = std::function<VplSet(const ViewSettings&, const SamplingSetting
 
 /// What a render calls. Those that do nothing here may be left out.
 struct RenderHooks {
-    RenderStart start = [](const RenderReport&, const View&, const VplSet&) {};
+    PictureOpener open = [](const RenderReport&, const View&, const VplSet&) {};
     RowSink rows = [](std::span<const float>) {};
     WorkProgress progress = [](double) { return true; };  ///< takes how far the whole picture is
     ForecastSink forecast{};
@@ -100,7 +100,7 @@ void add_beauty(std::span<const float> rows, Hasher& hasher);
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
 /// becomes the one of an uninterrupted render, to the bit; the report counts the passes of both, but the
-/// time, memory and devices of this one. If the checkpoint has whole passes, `hooks.start` gets a view
+/// time, memory and devices of this one. If the checkpoint has whole passes, `hooks.open` gets a view
 /// as pass 0 has it, and no VPLs.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
                     PassStart pass_start = {});

@@ -196,7 +196,27 @@ Prepared begin_pass(Session& session, const RenderSettings& settings, uint numbe
     return pass;
 }
 
-/// Makes a pass of `samples` per pixel. If it is the first and given up, nothing is left of it but its time.
+/// Begins the sums of a pass, or leaves of it what a checkpoint has not.
+void begin_sums(Prepared& pass, uint samples, const PixelWindow& whole, Passes& passes) {
+    if (passes.begun_rows > 0) {
+        pass.settings.gather.window = rest_of(pass, std::exchange(passes.begun_rows, 0));
+        return;
+    }
+    if (!passes.average) {
+        passes.average.emplace(whole.width, whole.height);
+    }
+    passes.average->begin_pass(samples);
+}
+
+/// Leaves nothing of the first pass but its time; the report is as it was `before`.
+void give_up(const RenderReport& before, Passes& passes, RenderReport& report) {
+    const RenderSeconds seconds = report.seconds;
+    report = before;
+    report.seconds = seconds;
+    passes.average.reset();
+}
+
+/// Makes a pass of `samples` per pixel. The first is given up if it turns out to take too long.
 void make_pass(Session& session, const RenderSettings& settings, uint samples, const RenderHooks& hooks,
                Passes& passes, RenderReport& report) {
     const RenderReport before = report;
@@ -204,14 +224,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     Prepared pass = begin_pass(session, settings, number, samples, hooks.vpls, passes, report);
     passes.schedule.note_vpls(pass.vpls.seconds_unless_kept);
     const PixelWindow whole = window_of(pass.view, pass.settings.gather);
-    if (passes.begun_rows > 0) {
-        pass.settings.gather.window = rest_of(pass, std::exchange(passes.begun_rows, 0));
-    } else {
-        if (!passes.average) {
-            passes.average.emplace(whole.width, whole.height);
-        }
-        passes.average->begin_pass(samples);
-    }
+    begin_sums(pass, samples, whole, passes);
     bool too_long = false;
     const auto take_rows = [&](std::span<const float> rows) {
         passes.average->add_rows(rows);
@@ -226,10 +239,7 @@ void make_pass(Session& session, const RenderSettings& settings, uint samples, c
     gather(session, pass, take_rows, go_on, report,
            preparation(session, settings, hooks.vpls, pass, number, passes));
     if (too_long && report.interrupted) {
-        const RenderSeconds seconds = report.seconds;
-        report = before;
-        report.seconds = seconds;
-        passes.average.reset();
+        give_up(before, passes, report);
         return;
     }
     if (passes.average->begun_rows() == whole.height) {
@@ -255,7 +265,7 @@ void render_passes(Session& session, const RenderSettings& settings, const Rende
     }
     report.error = known_error(settings, passes, passes.schedule.samples());
     tell(hooks.watcher, Moment::end, passes, *passes.view, settings.seed, report);
-    hooks.start(report, *passes.view, passes.vpls);
+    hooks.open(report, *passes.view, passes.vpls);
     if (!passes.schedule.samples().empty() || passes.average->begun_rows() > 0) {
         passes.average->send(hooks.rows);
     }

@@ -150,7 +150,7 @@ class MattesOfPicture {
         settings.passes = 3;
         settings.seed = 7;
         RenderHooks hooks;
-        hooks.start = [&](const RenderReport&, const View& view, const VplSet&) { camera_ = view.camera; };
+        hooks.open = [&](const RenderReport&, const View& view, const VplSet&) { camera_ = view.camera; };
         hooks.rows = [&](std::span<const float> rows) {
             picture_.insert(picture_.end(), rows.begin(), rows.end());
         };

@@ -27,7 +27,7 @@ inline RenderSettings few_vpls(SamplerKind sampler = SamplerKind::close_range) {
 inline Rendering render_image(Session& session, const RenderSettings& settings, RenderHooks hooks = {},
                               PassStart pass_start = {}) {
     Rendering rendering;
-    hooks.start = [&](const RenderReport& report, const View&, const VplSet&) {
+    hooks.open = [&](const RenderReport& report, const View&, const VplSet&) {
         rendering.image = {report.width, report.height, layer_channels(), {}};
     };
     hooks.rows = [&](std::span<const float> rows) {
