@@ -13,7 +13,7 @@
 
 namespace nearlight::core {
 
-/// What a value is that nobody knows.
+/// Stands for a value that is not known.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {

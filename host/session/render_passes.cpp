@@ -196,7 +196,7 @@ Prepared begin_pass(Session& session, const RenderSettings& settings, uint numbe
     return pass;
 }
 
-/// Begins the sums of a pass, or leaves of it what a checkpoint has not.
+/// Begins the sums of a pass. If a checkpoint has its first rows, the pass is to make only the others.
 void begin_sums(Prepared& pass, uint samples, const PixelWindow& whole, Passes& passes) {
     if (passes.begun_rows > 0) {
         pass.settings.gather.window = rest_of(pass, std::exchange(passes.begun_rows, 0));

@@ -198,7 +198,7 @@ TEST(Obj, KeywordsOfLibrariesMayHaveAnyCase) {
     const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wall\nf 1 2 3\n");
     const Material& mask = scene.materials[scene.triangles.at(0).material];
     expect_opacity(mask, 0.5f);
-    expect_near(scene.materials[scene.materials[mask.child[0]].child[0]].reflectance.value,
+    expect_near(scene.materials.at(scene.materials.at(mask.child[0]).child[0]).reflectance.value,
                 {0.8f, 0.1f, 0.2f});
 }
 
