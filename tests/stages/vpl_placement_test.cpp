@@ -339,9 +339,9 @@ TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
         const Buffer<CloseRange> range(device, std::span(&region, 1));
         VplPlacement placement(device);
         placement.set_surface(Buffer<float>(device, std::vector<float>{8.0f}), ids, 1, 1024.0f);
-        constexpr std::size_t kPoints = 10'000;
-        Buffer<SurfaceSample> samples(device, kPoints);
-        ASSERT_EQ(placement.place(vertices, triangles, ids, range, false, kPoints, 5, samples), kPoints);
+        constexpr std::size_t kPlaced = 10'000;
+        Buffer<SurfaceSample> samples(device, kPlaced);
+        ASSERT_EQ(placement.place(vertices, triangles, ids, range, false, kPlaced, 5, samples), kPlaced);
         // The trapezium |x − 5| ≤ z, 1 ≤ z ≤ 3 has the area 8, of which 3 lies before z = 2.
         std::size_t near = 0;
         std::size_t left = 0;
@@ -353,8 +353,8 @@ TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
             near += sample.position.z < 2 ? 1 : 0;
             left += sample.position.x < 5 ? 1 : 0;
         }
-        EXPECT_NEAR(static_cast<double>(near), 3.0 / 8 * kPoints, 100);
-        EXPECT_NEAR(static_cast<double>(left), 0.5 * kPoints, 100);
+        EXPECT_NEAR(static_cast<double>(near), 3.0 / 8 * kPlaced, 100);
+        EXPECT_NEAR(static_cast<double>(left), 0.5 * kPlaced, 100);
     });
 }
 
