@@ -305,6 +305,18 @@ TEST_F(GltfLoader, ImagesThatNoMaterialAsksForAreNotRead) {
     EXPECT_TRUE(has_note(load(), "it is a pipe"));
 }
 
+TEST_F(GltfLoader, ABufferInAPipeOrAFolderIsRefused) {
+    ASSERT_EQ(mkfifo(files_.path("pipe").c_str(), 0600), 0);
+    const auto with = [&](const std::string& member, const std::string& uri) {
+        json file = {{"asset", {{"version", "2.0"}}}, {member, {{{"uri", uri}, {"byteLength", 12}}}}};
+        return file_error([&] { load_scene(files_.write("file.gltf", file.dump())); });
+    };
+    EXPECT_THAT(with("buffers", "pipe"), HasSubstr("it is a pipe"));
+    EXPECT_THAT(with("buffers", "."), HasSubstr("it is a folder"));
+    // tinygltf decodes '%!Q' to a zero byte, where the system's functions end the path, which leaves the folder.
+    EXPECT_THAT(with("images", "%!QAAAQAAA5"), HasSubstr("no scene"));
+}
+
 TEST_F(GltfLoader, ABufferMayBeInTheFileOfAnImage) {
     json whole = gltf_.root;
     files_.write("both.png", gltf_.bytes);

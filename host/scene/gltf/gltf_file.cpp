@@ -7,7 +7,9 @@
 #include <limits>
 #include <set>
 #include <string_view>
+#include <system_error>
 
+#include "host/base/files.h"
 #include "host/scene/file_text.h"
 #include "host/scene/gltf/draco_codec.h"
 #include "host/scene/gltf/json_survey.h"
@@ -161,15 +163,24 @@ std::set<std::string> find_image_paths(const std::filesystem::path& path, const 
 /// Hides the files of images from tinygltf, which would read all of them, only for keep_image() to drop what
 /// it has read. It makes nothing of files that are missing.
 bool is_no_image(const std::string& path, void* paths_of_images) {
+    std::error_code ignored;
     return !static_cast<const std::set<std::string>*>(paths_of_images)->contains(path) &&
-           tinygltf::FileExists(path, nullptr);
+           std::filesystem::exists(path.c_str(), ignored);
+}
+
+/// Refuses pipes, for which tinygltf would wait, and folders, which it takes for files of 2⁶³ bytes. The path
+/// ends where a file system ends it: at a zero byte, which a damaged URI may decode to.
+bool read_plain_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
+                     void* unused) {
+    *error = reason_not_to_read(path.c_str());
+    return error->empty() && tinygltf::ReadWholeFile(bytes, error, path, unused);
 }
 
 tinygltf::FsCallbacks callbacks_without(std::set<std::string>& paths_of_images) {
     tinygltf::FsCallbacks callbacks{};
     callbacks.FileExists = is_no_image;
     callbacks.ExpandFilePath = tinygltf::ExpandFilePath;
-    callbacks.ReadWholeFile = tinygltf::ReadWholeFile;
+    callbacks.ReadWholeFile = read_plain_file;
     callbacks.WriteWholeFile = tinygltf::WriteWholeFile;
     callbacks.user_data = &paths_of_images;
     return callbacks;
