@@ -76,6 +76,12 @@ void parse_header_line(const std::filesystem::path& file, const std::string& lin
     }
 }
 
+/// The last character of each line of the header. Rhinoceros ends lines with a carriage return alone.
+char end_of_lines(std::string_view text) {
+    const std::string_view after_first = text.substr(std::min<std::size_t>(3, text.size()));
+    return after_first.starts_with('\r') && !after_first.starts_with("\r\n") ? '\r' : '\n';
+}
+
 }  // namespace
 
 void fail_ply(const std::filesystem::path& file, const std::string& what, std::string_view setting) {
@@ -113,8 +119,9 @@ PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view t
         fail_ply(file, "not a PLY file");
     }
     PlyHeader header;
+    const char line_end = end_of_lines(text);
     for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = text.find('\n', begin);
+        const std::size_t end = text.find(line_end, begin);
         if (end == std::string_view::npos) {
             break;
         }

@@ -313,7 +313,8 @@ TEST_F(GltfLoader, ABufferInAPipeOrAFolderIsRefused) {
     };
     EXPECT_THAT(with("buffers", "pipe"), HasSubstr("it is a pipe"));
     EXPECT_THAT(with("buffers", "."), HasSubstr("it is a folder"));
-    // tinygltf decodes '%!Q' to a zero byte, where the system's functions end the path, which leaves the folder.
+    // tinygltf decodes '%!Q' to a zero byte, where the system's functions end the path, which leaves the
+    // folder.
     EXPECT_THAT(with("images", "%!QAAAQAAA5"), HasSubstr("no scene"));
 }
 

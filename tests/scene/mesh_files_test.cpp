@@ -132,9 +132,9 @@ TEST(Obj, NegativeIndicesAndPolygons) {
     expect_near(scene.vertices[0].normal, {0, 0, 1});
 }
 
-TEST(Obj, AnIndexOutOfRangeIsAnErrorWithItsLine) {
+TEST(Obj, AVertexOutOfRangeIsAnErrorWithItsLine) {
     const SceneFiles files;
-    for (const char* face : {"f 1 2 4", "f 1 2 -4", "f 1 2 0", "f 1/1 2/1 3/1", "f 1//2 2//2 3//2"}) {
+    for (const char* face : {"f 1 2 4", "f 1 2 -4", "f 1 2 0"}) {
         const std::string message = file_error(
             [&] { load_obj(files, "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n" + std::string(face) + "\n"); });
         EXPECT_TRUE(mentions(message, "m.obj:5: ")) << message;
@@ -231,6 +231,19 @@ TEST(Obj, ManyFilesOfASceneComeInItsOrder) {
     const std::string error = file_error([&] { files.load_xml(body); });
     EXPECT_TRUE(mentions(error, "m7.obj:2: face refers to vertex 2")) << error;
     EXPECT_TRUE(mentions(error, "scene.xml:11: ")) << error;
+}
+
+TEST(ObjFile, CornersDoWithoutNormalsAndCoordinatesThatAreNotThere) {
+    const SceneFiles files;
+    const Scene scene = load_scene(files.write("a.obj",
+                                               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\n"
+                                               "f 1//1 2//1 3//1\nf 2/1/2 4/-1/3 3/1/-9\n"));
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_TRUE(has_note(scene, "a.obj:7: face refers to a normal or texture coordinate that is not there"));
+    const auto normal = [&](const Triangle& triangle) { return scene.vertices[triangle.v0].normal; };
+    expect_near(normal(scene.triangles[0]), {0, 0, 1});
+    // A corner without a normal is shaded with that of its triangle.
+    expect_near(normal(scene.triangles[1]), {0, 0, 0});
 }
 
 }  // namespace

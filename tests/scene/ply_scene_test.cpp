@@ -2,6 +2,8 @@
 // PLY files as whole scenes.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "host/image/image_io.h"
 #include "host/scene/places.h"
 #include "host/scene/texture.h"
@@ -29,6 +31,26 @@ TEST(PlyScene, IsGreyAndHasCameraAndLight) {
     EXPECT_GT(scene.environment.width, 0);
     EXPECT_TRUE(has_note(scene, "a.ply: the file has no camera"));
     expect_near(scene.vertices.at(0).normal, {0, 0, 1});
+}
+
+TEST(PlyScene, LinesOfTheHeaderMayEndInAnyWay) {
+    const SceneFiles files;
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        std::string file =
+            "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+            "property float y\nproperty float z\n" +
+            kFace;
+        for (std::size_t at = 0; (at = file.find('\n', at)) != std::string::npos; at += end.size()) {
+            file.replace(at, 1, end);
+        }
+        // The first coordinate begins with the byte of a line feed, which is not to be taken for one.
+        const float positions[] = {std::bit_cast<float>(0x3f80000au), 0, 0, 2, 0, 0, 1, 1, 0};
+        const int face[] = {0, 1, 2};
+        file.append(reinterpret_cast<const char*>(positions), sizeof positions);
+        file.push_back(3);
+        file.append(reinterpret_cast<const char*>(face), sizeof face);
+        EXPECT_EQ(load_scene(files.write("a.ply", file)).vertices.at(0).position.x, positions[0]);
+    }
 }
 
 TEST(PlyScene, ColoursOfVerticesAreSrgb) {

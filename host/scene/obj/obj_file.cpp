@@ -205,27 +205,39 @@ class ObjBuilder {
         }
     };
 
-    // OBJ counts from 1, or back from the last element. The index 0 means "not given", which is an error for
-    // a position.
-    uint resolve(int index, std::size_t count, const char* what, bool required) const {
+    /// The place of an element among the first `count`, or kNoIndex. OBJ counts from 1, or back from the last
+    /// element.
+    static uint place_of(int index, std::size_t count) {
         const auto signed_count = static_cast<long long>(count);
         const long long at = index > 0 ? index - 1LL : signed_count + index;
-        if (index == 0 && !required) {
-            return kNoIndex;
+        return index == 0 || at < 0 || at >= signed_count ? kNoIndex : static_cast<uint>(at);
+    }
+
+    uint position_of(int index) const {
+        const uint place = place_of(index, positions.size());
+        if (place == kNoIndex) {
+            throw Error(ErrorKind::file,
+                        obj_.mesh.source.string() + ":" + std::to_string(line_of_face(obj_.text, faces_)) +
+                            ": face refers to vertex " + std::to_string(index) + ", but there are only " +
+                            std::to_string(positions.size()) + " so far");
         }
-        if (index == 0 || at < 0 || at >= signed_count) {
-            throw Error(ErrorKind::file, obj_.mesh.source.string() + ":" +
-                                             std::to_string(line_of_face(obj_.text, faces_)) +
-                                             ": face refers to " + what + " " + std::to_string(index) +
-                                             ", but there are only " + std::to_string(count) + " so far");
+        return place;
+    }
+
+    /// The place of a normal or texture coordinate, which a corner can do without. The index 0 means that it
+    /// has none.
+    uint extra_of(int index, std::size_t count) {
+        const uint place = place_of(index, count);
+        if (place == kNoIndex && index != 0 && obj_.first_lost_extra == 0) {
+            obj_.first_lost_extra = line_of_face(obj_.text, faces_);
         }
-        return static_cast<uint>(at);
+        return place;
     }
 
     uint vertex(const tinyobj::index_t& index) {
-        const uint p = resolve(index.vertex_index, positions.size(), "vertex", true);
-        const uint t = resolve(index.texcoord_index, uvs.size(), "texture coordinate", false);
-        const uint n = resolve(index.normal_index, normals.size(), "normal", false);
+        const uint p = position_of(index.vertex_index);
+        const uint t = extra_of(index.texcoord_index, uvs.size());
+        const uint n = extra_of(index.normal_index, normals.size());
         const auto made = static_cast<uint>(obj_.mesh.positions.size());
         const auto [known, is_new] = corners_.try_emplace({p, t, n}, made);
         if (!is_new) {
@@ -322,6 +334,11 @@ void note_what_is_left_out(const ObjFile& obj, NoteSink& notes) {
         notes.approximation(
             obj.mesh.source, 0,
             std::to_string(obj.short_faces) + " faces with fewer than three corners are left out");
+    }
+    if (obj.first_lost_extra > 0) {
+        notes.approximation(
+            obj.mesh.source, obj.first_lost_extra,
+            "face refers to a normal or texture coordinate that is not there; corners do without");
     }
     if (obj.has_other_elements) {
         notes.approximation(obj.mesh.source, 0, "points, lines and free-form surfaces are left out");

@@ -30,6 +30,9 @@ struct ObjFile {
     std::map<int, std::string> libraries;
     std::string text;             ///< of the file, to find lines in, with continued lines joined
     std::size_t short_faces = 0;  ///< faces of fewer than three corners, which were left out
+    /// The line of the first face with a normal or texture coordinate that the file does not have before it,
+    /// which its corners do without; 0 if there is none.
+    int first_lost_extra = 0;
     /// Points, lines or free-form surfaces were left out. Always false for shapes of Mitsuba, which leaves
     /// them out, too.
     bool has_other_elements = false;
@@ -39,7 +42,7 @@ struct ObjFile {
 
 /// Reads the geometry; negative indices count back. With `mesh`, which is 0 or greater, reads only that one
 /// of the meshes that Mitsuba 0.5 and 0.6 make of the file (mesh_starts()), and of `materials` only those
-/// that it needs. Throws Error(ErrorKind::file) with file and line for an index out of range, for a file
+/// that it needs. Throws Error(ErrorKind::file) with file and line for a vertex that is not there, for a file
 /// without a triangle, and if there is no such mesh. Files may be read by several threads at once.
 ObjFile read_obj(const std::filesystem::path& file, ObjUse use, std::optional<int> mesh = {});
 
