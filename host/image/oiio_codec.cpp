@@ -43,42 +43,71 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::I
     return input;
 }
 
-/// Reads the rows [first, end) as numbers of `type`; images of tiles can be read as a whole only.
-bool read_rows(OIIO::ImageInput& input, int first, int end, OIIO::TypeDesc type, void* numbers) {
+bool holds_codes(const OIIO::ImageSpec& spec) {
+    return spec.format == OIIO::TypeDesc::UINT8 && spec.channelformats.empty();
+}
+
+/// Reads the rows [first, end) as the file has them; images of tiles can be read as a whole only. For numbers
+/// of another type, OpenImageIO would take memory for at least 256 rows, however many are asked for.
+bool read_rows(OIIO::ImageInput& input, int first, int end, std::vector<std::byte>& native) {
     const OIIO::ImageSpec& spec = input.spec();
-    return spec.tile_width > 0 ? input.read_image(0, 0, 0, spec.nchannels, type, numbers)
-                               : input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0,
-                                                      spec.nchannels, type, numbers);
+    native.resize(spec.scanline_bytes(true) * static_cast<std::size_t>(end - first));
+    return spec.tile_width > 0
+               ? input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, native.data())
+               : input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0, spec.nchannels,
+                                      OIIO::TypeDesc::UNKNOWN, native.data());
+}
+
+/// Turns pixels as the file has them into floats. OpenImageIO could turn codes of 8 bits into floats too, but
+/// takes longer for that than for all else.
+void convert(const OIIO::ImageSpec& spec, std::span<const std::byte> native, float* numbers) {
+    if (holds_codes(spec)) {
+        std::transform(native.begin(), native.end(), numbers, [](std::byte code) {
+            return static_cast<float>(std::to_integer<int>(code)) * (1.0f / 255.0f);
+        });
+        return;
+    }
+    const std::size_t pixel_bytes = spec.pixel_bytes(true);
+    const auto count = static_cast<int>(native.size() / pixel_bytes);
+    if (spec.channelformats.empty()) {
+        OIIO::convert_pixel_values(spec.format, native.data(), OIIO::TypeDesc::FLOAT, numbers,
+                                   count * spec.nchannels);
+        return;
+    }
+    std::size_t offset = 0;
+    for (int channel = 0; channel < spec.nchannels; ++channel) {
+        const OIIO::TypeDesc type = spec.channelformat(channel);
+        OIIO::convert_image(
+            1, count, 1, 1, native.data() + offset, type, static_cast<OIIO::stride_t>(pixel_bytes),
+            OIIO::AutoStride, OIIO::AutoStride, numbers + channel, OIIO::TypeDesc::FLOAT,
+            static_cast<OIIO::stride_t>(spec.nchannels * sizeof(float)), OIIO::AutoStride, OIIO::AutoStride);
+        offset += type.size();
+    }
 }
 
 /// Reads all pixels. Images of scanlines are read in parts, so that a short file whose header promises many
-/// pixels takes memory for the first part only. OpenImageIO would turn codes of 8 bits into floats too, but
-/// takes longer for that than for all else.
+/// pixels takes memory for the first part only.
 bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
     constexpr std::size_t kPart = std::size_t{4} << 20;  // numbers
     const OIIO::ImageSpec& spec = input.spec();
     const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
-    const int step = spec.tile_width > 0
-                         ? spec.height
-                         : static_cast<int>(std::clamp<std::size_t>(kPart / row, 1, 1u << 16));
-    const bool has_codes = spec.format == OIIO::TypeDesc::UINT8;
-    std::vector<std::uint8_t> codes;
+    const bool has_tiles = spec.tile_width > 0;
+    if (has_tiles && !holds_codes(spec)) {
+        values.resize(row * static_cast<std::size_t>(spec.height));
+        return input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data());
+    }
+    const int step =
+        has_tiles ? spec.height : static_cast<int>(std::clamp<std::size_t>(kPart / row, 1, 1u << 16));
+    std::vector<std::byte> native;
     values.reserve(row * static_cast<std::size_t>(spec.height));
     for (int first = 0; first < spec.height; first += step) {
         const int end = std::min(first + step, spec.height);
-        const std::size_t count = row * static_cast<std::size_t>(end - first);
-        const std::size_t before = values.size();
-        values.resize(before + count);
-        float* const part = values.data() + before;
-        if (has_codes) {
-            codes.resize(count);
-        }
-        if (has_codes ? !read_rows(input, first, end, OIIO::TypeDesc::UINT8, codes.data())
-                      : !read_rows(input, first, end, OIIO::TypeDesc::FLOAT, part)) {
+        if (!read_rows(input, first, end, native)) {
             return false;
         }
-        std::transform(codes.begin(), codes.end(), part,
-                       [](std::uint8_t code) { return static_cast<float>(code) * (1.0f / 255.0f); });
+        const std::size_t before = values.size();
+        values.resize(before + row * static_cast<std::size_t>(end - first));
+        convert(spec, native, values.data() + before);
     }
     return true;
 }
