@@ -29,7 +29,28 @@ OIIO::ImageSpec reading_options() {
     return options;
 }
 
+constexpr const char* kTooManyPixels = "its header promises more pixels than it can hold";
+
+/// Refuses a GIF file whose screen is out of proportion to its size. OpenImageIO takes memory for the screen
+/// as soon as it opens the file.
+void check_gif_screen(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
+    std::array<unsigned char, 10> head{};
+    static_cast<void>(memory != nullptr
+                          ? memory->pread(head.data(), head.size(), 0)
+                          : OIIO::Filesystem::read_bytes(file.string(), head.data(), head.size()));
+    constexpr std::array<unsigned char, 4> kSignature{'G', 'I', 'F', '8'};
+    const auto number = [&](std::size_t at) { return std::uintmax_t{head.at(at)} + 256u * head.at(at + 1); };
+    constexpr std::uintmax_t kPixelBytes = 4;
+    std::error_code ignored;
+    const std::uintmax_t size = memory != nullptr ? memory->size() : fs::file_size(file, ignored);
+    if (std::equal(kSignature.begin(), kSignature.end(), head.begin()) &&
+        !fits_in_file(kPixelBytes * number(6) * number(8), size)) {
+        fail_image("cannot read image", file, kTooManyPixels);
+    }
+}
+
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
+    check_gif_screen(file, memory);
     OIIO::ImageSpec options = reading_options();
     // The proxy is passed both ways, because some formats take it from the options and ignore the argument.
     void* const proxy = memory;
@@ -123,8 +144,9 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }
     std::error_code ignored;
-    if (!fits_in_file(spec.image_bytes(true), bytes.empty() ? fs::file_size(file, ignored) : bytes.size())) {
-        fail_image("cannot read image", file, "its header promises more pixels than it can hold");
+    const std::uintmax_t file_size = bytes.empty() ? fs::file_size(file, ignored) : bytes.size();
+    if (!fits_in_file(std::max(spec.image_bytes(true), spec.tile_bytes(true)), file_size)) {
+        fail_image("cannot read image", file, kTooManyPixels);
     }
     Image image{.width = spec.width,
                 .height = spec.height,
