@@ -7,12 +7,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "host/base/names.h"
+#include "host/base/words.h"
 #include "host/image/image_codec.h"
 #include "host/image/webp_codec.h"
 #include "nearlight/error.h"
@@ -31,35 +33,93 @@ OIIO::ImageSpec reading_options() {
 
 constexpr const char* kTooManyPixels = "its header promises more pixels than it can hold";
 
-/// Refuses a GIF file whose screen is out of proportion to its size. OpenImageIO takes memory for the screen
-/// as soon as it opens the file.
-void check_gif_screen(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
-    std::array<unsigned char, 10> head{};
+/// What a file of a format begins with.
+struct Signature {
+    std::string_view start;
+    const char* format;  ///< OpenImageIO's name
+};
+using namespace std::string_view_literals;
+constexpr Signature kSignatures[] = {
+    {"\x76\x2f\x31\x01"sv, "openexr"},
+    {"\x89PNG\r\n\x1a\n"sv, "png"},
+    {"\xff\xd8\xff"sv, "jpeg"},
+    {"#?"sv, "hdr"},
+    {"BM"sv, "bmp"},
+    {"II*\0"sv, "tiff"},
+    {"MM\0*"sv, "tiff"},
+    {"II+\0"sv, "tiff"},
+    {"MM\0+"sv, "tiff"},
+    {"GIF87a"sv, "gif"},
+    {"GIF89a"sv, "gif"},
+    {"8BPS"sv, "psd"},
+    {"DDS "sv, "dds"},
+};
+
+/// The beginning of a file, with zeros behind the end of a shorter one.
+using Head = std::array<char, 10>;
+
+Head read_head(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
+    Head head{};
     static_cast<void>(memory != nullptr
                           ? memory->pread(head.data(), head.size(), 0)
                           : OIIO::Filesystem::read_bytes(file.string(), head.data(), head.size()));
-    constexpr std::array<unsigned char, 4> kSignature{'G', 'I', 'F', '8'};
-    const auto number = [&](std::size_t at) { return std::uintmax_t{head.at(at)} + 256u * head.at(at + 1); };
+    return head;
+}
+
+/// OpenImageIO's name of a file's format. OpenImageIO itself would try all its readers, some of which crash
+/// on damaged files. Files of Targa have no signature, and those of the PNM family are told by their second
+/// letter.
+std::string format_of(const fs::path& file, const Head& head) {
+    const std::string_view start(head.data(), head.size());
+    for (const Signature& known : kSignatures) {
+        if (start.starts_with(known.start)) {
+            return known.format;
+        }
+    }
+    if (start[0] == 'P' && "1234567Ff"sv.find(start[1]) != std::string_view::npos) {
+        return "pnm";
+    }
+    if (equal_in_any_case(file.extension().string(), ".tga")) {
+        return "targa";
+    }
+    fail_image("cannot read image", file,
+               "it is none of EXR, PNG, JPEG, HDR, TIFF, Targa, BMP, GIF, WebP, PSD, DDS, PNM and PFM");
+}
+
+/// Refuses a GIF file whose screen is out of proportion to its size. OpenImageIO takes memory for the screen
+/// as soon as it opens the file.
+void check_gif_screen(const fs::path& file, const Head& head, OIIO::Filesystem::IOProxy* memory) {
+    const auto number = [&](std::size_t at) {
+        return std::uintmax_t{static_cast<unsigned char>(head.at(at))} +
+               256u * static_cast<unsigned char>(head.at(at + 1));
+    };
     constexpr std::uintmax_t kPixelBytes = 4;
     std::error_code ignored;
     const std::uintmax_t size = memory != nullptr ? memory->size() : fs::file_size(file, ignored);
-    if (std::equal(kSignature.begin(), kSignature.end(), head.begin()) &&
-        !fits_in_file(kPixelBytes * number(6) * number(8), size)) {
+    if (!fits_in_file(kPixelBytes * number(6) * number(8), size)) {
         fail_image("cannot read image", file, kTooManyPixels);
     }
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
-    check_gif_screen(file, memory);
+    const Head head = read_head(file, memory);
+    const std::string format = format_of(file, head);
+    if (format == "gif") {
+        check_gif_screen(file, head, memory);
+    }
     OIIO::ImageSpec options = reading_options();
-    // The proxy is passed both ways, because some formats take it from the options and ignore the argument.
+    // The proxy is passed both ways, because some formats take it from the options and ignore the other.
     void* const proxy = memory;
     if (memory != nullptr) {
         options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     }
-    auto input = OIIO::ImageInput::open(file.string(), &options, memory);
+    auto input = OIIO::ImageInput::create(format);
     if (!input) {
         fail_image("cannot read image", file, OIIO::geterror());
+    }
+    OIIO::ImageSpec spec;
+    if ((memory != nullptr && !input->set_ioproxy(memory)) || !input->open(file.string(), spec, options)) {
+        fail_image("cannot read image", file, input->geterror());
     }
     return input;
 }

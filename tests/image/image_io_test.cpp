@@ -304,6 +304,16 @@ TEST(ImageIo, ReadingNamesTheFileAndTheReason) {
     error_of(ErrorKind::file, [&] { read_image(folder / "what.ever"); });
 }
 
+TEST(ImageIo, ContentTellsTheFormat) {
+    const TemporaryFolder folder;
+    write_image(folder / "a.png", noise(5, 3, {"R", "G", "B"}));
+    fs::rename(folder / "a.png", folder / "a.exr");
+    EXPECT_EQ(read_image(folder / "a.exr").width, 5);
+    write_text(folder / "a.pic", "\x53\x80\xf6\x34 a format whose reader crashes on damaged files");
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "a.pic"); }).find("it is none of EXR, PNG"),
+              std::string::npos);
+}
+
 TEST(ImageIo, HeadersThatPromiseTooMuchAreErrors) {
     const TemporaryFolder folder;
     write_text(folder / "a.ppm", "P6 60000 60000 255\nabc");
