@@ -67,8 +67,9 @@ const ImageCodec& image_codec();
 /// spaces.
 [[noreturn]] void fail_image(const char* what, const std::filesystem::path& file, std::string reason);
 
-/// Whether a file can hold so many bytes of pixels, because a broken header may promise any size. Deflate,
-/// the densest compression in use, packs about 1000 to 1.
-bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size);
+/// Throws Error(ErrorKind::file) if a file of `file_size` bytes cannot hold `image_bytes` of pixels, because
+/// a broken header may promise any size. Deflate, the densest compression in use, packs about 1000 to 1.
+void check_fits_in_file(const std::filesystem::path& file, std::uintmax_t image_bytes,
+                        std::uintmax_t file_size);
 
 }  // namespace nearlight::core

@@ -14,10 +14,13 @@ void fail_image(const char* what, const std::filesystem::path& file, std::string
                                      "': " + (reason.empty() ? "unknown reason" : reason));
 }
 
-bool fits_in_file(std::uintmax_t image_bytes, std::uintmax_t file_size) {
+void check_fits_in_file(const std::filesystem::path& file, std::uintmax_t image_bytes,
+                        std::uintmax_t file_size) {
     constexpr std::uintmax_t kDensest = 2000;
     constexpr std::uintmax_t kAlwaysFine = 64u << 20u;
-    return image_bytes <= kAlwaysFine + kDensest * file_size;
+    if (image_bytes > kAlwaysFine + kDensest * file_size) {
+        fail_image("cannot read image", file, "its header promises more pixels than it can hold");
+    }
 }
 
 }  // namespace nearlight::core

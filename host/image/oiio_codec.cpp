@@ -31,8 +31,6 @@ OIIO::ImageSpec reading_options() {
     return options;
 }
 
-constexpr const char* kTooManyPixels = "its header promises more pixels than it can hold";
-
 /// What a file of a format begins with.
 struct Signature {
     std::string_view start;
@@ -54,6 +52,11 @@ constexpr Signature kSignatures[] = {
     {"8BPS"sv, "psd"},
     {"DDS "sv, "dds"},
 };
+
+std::uintmax_t size_of(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
+    std::error_code ignored;
+    return memory != nullptr ? memory->size() : fs::file_size(file, ignored);
+}
 
 /// The beginning of a file, with zeros behind the end of a shorter one.
 using Head = std::array<char, 10>;
@@ -94,11 +97,7 @@ void check_gif_screen(const fs::path& file, const Head& head, OIIO::Filesystem::
                256u * static_cast<unsigned char>(head.at(at + 1));
     };
     constexpr std::uintmax_t kPixelBytes = 4;
-    std::error_code ignored;
-    const std::uintmax_t size = memory != nullptr ? memory->size() : fs::file_size(file, ignored);
-    if (!fits_in_file(kPixelBytes * number(6) * number(8), size)) {
-        fail_image("cannot read image", file, kTooManyPixels);
-    }
+    check_fits_in_file(file, kPixelBytes * number(6) * number(8), size_of(file, memory));
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
@@ -174,6 +173,7 @@ bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
     const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
     const bool has_tiles = spec.tile_width > 0;
     if (has_tiles && !holds_codes(spec)) {
+        // Tiles are read as a whole, so that numbers need not be kept in the file's type, too.
         values.resize(row * static_cast<std::size_t>(spec.height));
         return input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data());
     }
@@ -198,16 +198,13 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
         return std::move(*webp);
     }
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    const auto input = open(file, bytes.empty() ? nullptr : &memory);
+    OIIO::Filesystem::IOProxy* const proxy = bytes.empty() ? nullptr : &memory;
+    const auto input = open(file, proxy);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }
-    std::error_code ignored;
-    const std::uintmax_t file_size = bytes.empty() ? fs::file_size(file, ignored) : bytes.size();
-    if (!fits_in_file(std::max(spec.image_bytes(true), spec.tile_bytes(true)), file_size)) {
-        fail_image("cannot read image", file, kTooManyPixels);
-    }
+    check_fits_in_file(file, std::max(spec.image_bytes(true), spec.tile_bytes(true)), size_of(file, proxy));
     Image image{.width = spec.width,
                 .height = spec.height,
                 .channels = spec.channelnames,

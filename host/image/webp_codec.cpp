@@ -53,9 +53,7 @@ std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::
     const std::size_t channels = features.has_alpha != 0 ? 4 : 3;
     const std::size_t count =
         static_cast<std::size_t>(features.width) * static_cast<std::size_t>(features.height) * channels;
-    if (!fits_in_file(count, content.size())) {
-        fail_image("cannot read image", file, "its header promises more pixels than it can hold");
-    }
+    check_fits_in_file(file, count, content.size());
     int width = 0;
     int height = 0;
     const auto decode = channels == 4 ? WebPDecodeRGBA : WebPDecodeRGB;

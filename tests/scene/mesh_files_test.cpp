@@ -233,7 +233,7 @@ TEST(Obj, ManyFilesOfASceneComeInItsOrder) {
     EXPECT_TRUE(mentions(error, "scene.xml:11: ")) << error;
 }
 
-TEST(ObjFile, CornersDoWithoutNormalsAndCoordinatesThatAreNotThere) {
+TEST(Obj, CornersDoWithoutNormalsAndCoordinatesThatAreNotThere) {
     const SceneFiles files;
     const Scene scene = load_scene(files.write("a.obj",
                                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\n"

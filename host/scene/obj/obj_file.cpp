@@ -226,18 +226,18 @@ class ObjBuilder {
 
     /// The place of a normal or texture coordinate, which a corner can do without. The index 0 means that it
     /// has none.
-    uint extra_of(int index, std::size_t count) {
+    uint attribute_of(int index, std::size_t count) {
         const uint place = place_of(index, count);
-        if (place == kNoIndex && index != 0 && obj_.first_lost_extra == 0) {
-            obj_.first_lost_extra = line_of_face(obj_.text, faces_);
+        if (place == kNoIndex && index != 0 && obj_.first_lost_attribute == 0) {
+            obj_.first_lost_attribute = line_of_face(obj_.text, faces_);
         }
         return place;
     }
 
     uint vertex(const tinyobj::index_t& index) {
         const uint p = position_of(index.vertex_index);
-        const uint t = extra_of(index.texcoord_index, uvs.size());
-        const uint n = extra_of(index.normal_index, normals.size());
+        const uint t = attribute_of(index.texcoord_index, uvs.size());
+        const uint n = attribute_of(index.normal_index, normals.size());
         const auto made = static_cast<uint>(obj_.mesh.positions.size());
         const auto [known, is_new] = corners_.try_emplace({p, t, n}, made);
         if (!is_new) {
@@ -335,9 +335,9 @@ void note_what_is_left_out(const ObjFile& obj, NoteSink& notes) {
             obj.mesh.source, 0,
             std::to_string(obj.short_faces) + " faces with fewer than three corners are left out");
     }
-    if (obj.first_lost_extra > 0) {
+    if (obj.first_lost_attribute > 0) {
         notes.approximation(
-            obj.mesh.source, obj.first_lost_extra,
+            obj.mesh.source, obj.first_lost_attribute,
             "face refers to a normal or texture coordinate that is not there; corners do without");
     }
     if (obj.has_other_elements) {

@@ -32,7 +32,7 @@ struct ObjFile {
     std::size_t short_faces = 0;  ///< faces of fewer than three corners, which were left out
     /// The line of the first face with a normal or texture coordinate that the file does not have before it,
     /// which its corners do without; 0 if there is none.
-    int first_lost_extra = 0;
+    int first_lost_attribute = 0;
     /// Points, lines or free-form surfaces were left out. Always false for shapes of Mitsuba, which leaves
     /// them out, too.
     bool has_other_elements = false;
