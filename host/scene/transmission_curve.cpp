@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ struct Node {
     double x, weight;
 };
 
+constexpr double kMaxSlope = 6.0;  // in units of α; beyond it there are 1e-16 of Beckmann's slopes
+
 /// The Gauss-Legendre rule with n nodes on [0, 1].
 std::vector<Node> gauss_legendre(int n) {
     std::vector<Node> nodes;
@@ -50,11 +53,39 @@ std::vector<Node> gauss_legendre(int n) {
     return nodes;
 }
 
-/// Isotropic microfacets, as a view in the xz plane meets them.
+/// The slope s below `max_slope` at which 1 + erf(s) + tangent/√π · exp(−s²), which grows up to s = 1 ÷
+/// tangent, is the part u of what it is at `max_slope`.
+double slope_of_part(double u, double tangent, double max_slope) {
+    const auto grown = [&](double s) {
+        return 1.0 + std::erf(s) + tangent * std::numbers::inv_sqrtpi * std::exp(-s * s);
+    };
+    const double wanted = u * grown(max_slope);
+    double low = -kMaxSlope;
+    double high = max_slope;
+    for (int step = 0; step < 44; ++step) {
+        const double middle = 0.5 * (low + high);
+        (grown(middle) < wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/// Isotropic microfacets, as a view in the xz plane meets them. Means over them are the sums of Mitsuba's
+/// `roughplastic`: its nodes in the unit square, from which visible normals are drawn, and not only its
+/// integral. With 32 × 32 nodes the sum is up to 0.03 % above the integral, which shows where light meets
+/// coats many times.
 class Microfacets {
   public:
     Microfacets(double alpha, bool beckmann, int resolution)
-        : alpha_(alpha), beckmann_(beckmann), nodes_(gauss_legendre(resolution)) {}
+        : alpha_(alpha), beckmann_(beckmann), nodes_(gauss_legendre(resolution)) {
+        for (const Node& u : nodes_) {
+            across_.push_back(beckmann ? slope_of_part(u.x, 0.0, kMaxSlope) : 0.0);
+        }
+        for (const Node& v : nodes_) {
+            for (const Node& u : right_half()) {
+                disk_.push_back(disk_point(2.0 * u.x - 1.0, 2.0 * v.x - 1.0, 2.0 * u.weight * v.weight));
+            }
+        }
+    }
 
     /// The mean of value(m) over the normals m that are visible from the direction with this cosine.
     template <typename Value>
@@ -74,23 +105,40 @@ class Microfacets {
     }
 
   private:
-    /// Stretched by 1/α, GGX's visible normals are halfway between the view and the directions of a uniformly
-    /// lit spherical cap [Dupuy and Benyoub 2023].
+    struct DiskPoint {
+        double x, y, weight;
+    };
+
+    /// The concentric map of the square [−1, 1]² [Shirley and Chiu 1997], here for x > 0.
+    static DiskPoint disk_point(double x, double y, double weight) {
+        constexpr double kEighthTurn = 0.25 * std::numbers::pi;
+        if (x >= std::abs(y)) {
+            const double angle = kEighthTurn * y / x;
+            return {x * std::cos(angle), x * std::sin(angle), weight};
+        }
+        const double angle = kEighthTurn * x / y;
+        return {y * std::sin(angle), y * std::cos(angle), weight};
+    }
+
+    /// The nodes above 1/2. The others mirror them, and their normals bring the same by symmetry.
+    [[nodiscard]] std::span<const Node> right_half() const {
+        return std::span(nodes_).first(nodes_.size() / 2);
+    }
+
+    /// Stretched by 1/α, GGX's visible normals are those of a hemisphere, projected along the view [Heitz
+    /// 2018].
     template <typename Value>
     [[nodiscard]] double mean_ggx(const Direction& view, const Value& value) const {
         const double length = std::hypot(alpha_ * view.x, view.z);
         const Direction stretched{alpha_ * view.x / length, 0.0, view.z / length};
-        const double opening = std::acos(-stretched.z);
+        const double lower_part = 0.5 * (1.0 + stretched.z);
         double sum = 0.0;
-        for (const Node& polar : nodes_) {
-            const double theta = polar.x * opening;
-            const double weight = polar.weight * opening * std::sin(theta) / (1.0 + stretched.z);
-            for (const Node& azimuth : nodes_) {  // one half of the cap mirrors the other
-                const double phi = azimuth.x * std::numbers::pi;
-                const Direction h{std::sin(theta) * std::cos(phi) + stretched.x,
-                                  std::sin(theta) * std::sin(phi), std::cos(theta) + stretched.z};
-                sum += weight * azimuth.weight * value(view, unit(alpha_ * h.x, alpha_ * h.y, h.z));
-            }
+        for (const DiskPoint& point : disk_) {
+            const double rim = std::sqrt(std::max(0.0, 1.0 - point.x * point.x));
+            const double y = rim + lower_part * (point.y - rim);
+            const double z = std::sqrt(std::max(0.0, rim * rim - y * y));
+            const Direction h{z * stretched.x - y * stretched.z, point.x, z * stretched.z + y * stretched.x};
+            sum += point.weight * value(view, unit(alpha_ * h.x, alpha_ * h.y, h.z));
         }
         return sum;
     }
@@ -98,22 +146,17 @@ class Microfacets {
     /// Beckmann's slopes are normally distributed, and visible in proportion to their projection.
     template <typename Value>
     [[nodiscard]] double mean_beckmann(const Direction& view, const Value& value) const {
-        constexpr double kReach = 4.5;  // in units of α; the rest weighs less than 1e-9
-        const double horizon = view.x > 0.0 ? view.z / (view.x * alpha_) : kReach;
-        const double end = std::min(kReach, horizon);
+        const double tangent = alpha_ * view.x / view.z;
+        const double horizon = tangent * kMaxSlope > 1.0 ? 1.0 / tangent : kMaxSlope;
         double sum = 0.0;
-        double total = 0.0;
-        for (const Node& along : nodes_) {
-            const double x = -kReach + along.x * (end + kReach);
-            const double projection = view.z - alpha_ * x * view.x;
-            for (const Node& across : nodes_) {
-                const double y = across.x * kReach;
-                const double weight = along.weight * across.weight * projection * std::exp(-x * x - y * y);
-                sum += weight * value(view, unit(-alpha_ * x, -alpha_ * y, 1.0));
-                total += weight;
+        for (const Node& u : nodes_) {
+            const double x = slope_of_part(u.x, tangent, horizon);
+            for (std::size_t v = 0; v < right_half().size(); ++v) {
+                sum += 2.0 * u.weight * nodes_[v].weight *
+                       value(view, unit(-alpha_ * x, -alpha_ * across_[v], 1.0));
             }
         }
-        return sum / total;
+        return sum;
     }
 
     static Direction unit(double x, double y, double z) {
@@ -123,7 +166,9 @@ class Microfacets {
 
     double alpha_;
     bool beckmann_;
-    std::vector<Node> nodes_;
+    std::vector<Node> nodes_;      // from 1 down to 0, an even number
+    std::vector<double> across_;   // Beckmann's slopes across the plane of the view, for each node
+    std::vector<DiskPoint> disk_;  // GGX's points for the right half of the square
 };
 
 /// What a microfacet lets through, where the refracted direction is not shadowed.
@@ -156,6 +201,12 @@ TransmissionCurve make_curve(const Value& value) {
     return curve;
 }
 
+/// The nodes along each side of the square, as many as Mitsuba has, for light that comes in where eta is the
+/// index beyond the coat ÷ that before it.
+int resolution(double eta) {
+    return eta > 1.0 ? 32 : 128;
+}
+
 /// Receivers and shared lights keep the number of a curve in 16 bits.
 constexpr std::size_t kMaxCurve = 0xffff;
 constexpr double kMinCosine = 1e-6;  // a view along the surface has no visible normals
@@ -184,7 +235,7 @@ TransmissionCurve smooth_coat_curve(double eta) {
 }
 
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann) {
-    const Microfacets microfacets(alpha, beckmann, eta > 1.0 ? 32 : 256);
+    const Microfacets microfacets(alpha, beckmann, resolution(eta));
     return make_curve([&](double cosine) {
         return microfacets.mean(std::max(cosine, kMinCosine), [&](const Direction& view, const Direction& m) {
             return transmitted(microfacets, eta, view, m);
@@ -206,7 +257,7 @@ double smooth_internal_reflectance(double eta) {
 }
 
 double rough_internal_reflectance(double eta, double alpha, bool beckmann) {
-    const Microfacets microfacets(alpha, beckmann, eta > 1.0 ? 96 : 32);
+    const Microfacets microfacets(alpha, beckmann, resolution(1.0 / eta));
     double sum = 0.0;
     for (std::size_t i = 0; i < NEARLIGHT_CURVE_SIZE; ++i) {
         const double cosine = std::max(cosine_of_row(i), kMinCosine);

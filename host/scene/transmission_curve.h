@@ -18,7 +18,7 @@ uint add_curve(Scene& scene, const TransmissionCurve& curve);
 /// 1 − F(c) of a smooth dielectric; eta = interior ÷ exterior index.
 TransmissionCurve smooth_coat_curve(double eta);
 /// The share of light, coming in at each cosine, that microfacets let through without shadowing it, as
-/// Mitsuba's `roughplastic` weighs its base.
+/// Mitsuba's `roughplastic` weighs its base, with the error of its quadrature.
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann);
 /// 1 − ½(1 − c)⁵ [Burley 2012].
 TransmissionCurve principled_curve();

@@ -25,13 +25,14 @@ TEST(TransmissionCurve, DiffusePartOfPlasticsIsMitsubas) {
     const PlasticCase cases[] = {
         {{kPlasticEta, 0, true, false}, {0.046474, 0.191328, 0.308343, 0.428746, 0.498682, 0.508507}},
         {{kPlasticEta, 0, true, true}, {0.027005, 0.111176, 0.179172, 0.249135, 0.289774, 0.295482}},
-        {{kPlasticEta, 0.1, true, false}, {0.199837, 0.250002, 0.315944, 0.413169, 0.479574, 0.489583}},
+        {{kPlasticEta, 0.1, true, false}, {0.199837, 0.250002, 0.315944, 0.413169, 0.479574, 0.489584}},
         {{kPlasticEta, 0.1, true, true}, {0.119268, 0.149208, 0.188563, 0.246589, 0.286221, 0.292195}},
         {{kPlasticEta, 0.5, false, false}, {0.158551, 0.178231, 0.198137, 0.227173, 0.261188, 0.279032}},
         {{kPlasticEta, 0.5, false, true}, {0.132234, 0.148647, 0.165249, 0.189465, 0.217835, 0.232717}},
         {{1.9 / 1.000277, 0.02, false, false}, {0.112020, 0.187441, 0.279171, 0.379653, 0.443351, 0.454008}},
         {{kPlasticEta, 0.7, true, false}, {0.242390, 0.253966, 0.266027, 0.283681, 0.301766, 0.312822}},
         {{1.2 / 1.5, 0.3, true, false}, {0, 0, 0, 0.009984, 0.470103, 0.787176}},
+        {{1.5, 0.1, false, true}, {0.167656, 0.174396, 0.197704, 0.240874, 0.275943, 0.282551}},
     };
     const std::size_t rows[] = {1, 5, 10, 20, 40, 62};
     // Materials that stand in the scene already may lend their coats, but only to those that have the same.
@@ -45,7 +46,8 @@ TEST(TransmissionCurve, DiffusePartOfPlasticsIsMitsubas) {
         const double color = 0.5 / (1 - inside * (c.coat.nonlinear ? 0.5 : 1.0)) / (c.coat.eta * c.coat.eta);
         for (std::size_t i = 0; i < 6; ++i) {
             const double d = color * static_cast<double>(curve[rows[i]]) * static_cast<double>(curve[63]);
-            EXPECT_NEAR(d, c.expected[i], 0.002 * c.expected[i] + 1e-4) << rows[i];
+            // Light that meets a coat ten times multiplies an error of the curve by more than ten.
+            EXPECT_NEAR(d, c.expected[i], 1e-5 * c.expected[i] + 1e-6) << rows[i];
         }
     }
 }
