@@ -105,6 +105,6 @@ function(nearlight_test name)
     NEARLIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEARLIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}"
     # These sanitizers reserve terabytes of addresses, so that tests cannot limit them.
     $<$<NOT:$<STREQUAL:"${reserves_addresses}","">>:NEARLIGHT_RESERVES_ADDRESSES>)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}."
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}." NO_PRETTY_VALUES
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${environment} ${alone})
 endfunction()

@@ -45,14 +45,19 @@ class SingleLightShares : public test::FaceDeviceTest {
         return scene;
     }
 };
-class LightShares : public SingleLightShares,
-                    public testing::WithParamInterface<std::pair<const char*, LightKind>> {};
+
+struct EmitterCase {
+    const char* name;
+    LightKind kind;
+    const char* xml;
+};
+class LightShares : public SingleLightShares, public testing::WithParamInterface<EmitterCase> {};
 
 const std::vector<Vec3> kPoints{{0, 0, 0}, {0.5f, 0, 0}, {-0.7f, 0.5f, 0}};
 constexpr Vec3 kUp{0, 0, 1};
 
 TEST_P(LightShares, AddUpToTheIrradiance) {
-    Session session(Devices::choose(), load(GetParam().first));
+    Session session(Devices::choose(), load(GetParam().xml));
     const View view = session.look({.ray_budget_pilot = false});
     const VplSet none = session.sample(view, {.vpl_count = 0});
     const VplSet vpls = session.sample(view, {.vpl_count = 500}, 1);
@@ -70,7 +75,7 @@ TEST_P(LightShares, AddUpToTheIrradiance) {
             vpl_count += share.kind == LightKind::vpl ? 1 : 0;
             EXPECT_GE(share.taken_by_clamp.x, 0.0f);
             if (share.kind != LightKind::vpl) {
-                EXPECT_EQ(share.kind, GetParam().second);
+                EXPECT_EQ(share.kind, GetParam().kind);
             }
         }
         const float expected = sum_of(direct[i]);
@@ -86,30 +91,31 @@ TEST_P(LightShares, AddUpToTheIrradiance) {
 INSTANTIATE_TEST_SUITE_P(
     Emitters, LightShares,
     testing::Values(
-        std::pair{R"(<emitter type="point"><point name="position" x="0.5" y="0" z="2"/>
-                     <rgb name="intensity" value="3, 3, 3"/></emitter>)",
-                  LightKind::point},
-        std::pair{R"(<emitter type="spot"><transform name="to_world">
-                     <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
-                     <rgb name="intensity" value="5, 5, 5"/><float name="cutoff_angle" value="30"/></emitter>)",
-                  LightKind::spot},
-        std::pair{R"(<emitter type="projector"><transform name="to_world">
-                     <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
-                     <rgb name="irradiance" value="2, 2, 2"/><float name="fov" value="60"/></emitter>)",
-                  LightKind::projector},
-        std::pair{R"(<emitter type="directional"><vector name="direction" x="-0.3" y="0" z="-1"/>
-                     <rgb name="irradiance" value="2, 2, 2"/></emitter>)",
-                  LightKind::directional},
-        std::pair{R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
-                     <translate z="2"/></transform><emitter type="area"><rgb name="radiance" value="2, 2, 2"/>
-                     </emitter></shape>)",
-                  LightKind::area},
-        std::pair{
-            R"(<shape type="sphere"><point name="center" x="0.3" y="0" z="1.5"/><float name="radius" value="0.2"/>
-                     <emitter type="area"><rgb name="radiance" value="8, 8, 8"/></emitter></shape>)",
-            LightKind::area},
-        std::pair{R"(<emitter type="constant"><rgb name="radiance" value="0.5, 0.5, 0.5"/></emitter>)",
-                  LightKind::environment}));
+        EmitterCase{"point", LightKind::point,
+                    R"(<emitter type="point"><point name="position" x="0.5" y="0" z="2"/>
+                       <rgb name="intensity" value="3, 3, 3"/></emitter>)"},
+        EmitterCase{"spot", LightKind::spot,
+                    R"(<emitter type="spot"><transform name="to_world">
+                       <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
+                       <rgb name="intensity" value="5, 5, 5"/><float name="cutoff_angle" value="30"/></emitter>)"},
+        EmitterCase{"projector", LightKind::projector,
+                    R"(<emitter type="projector"><transform name="to_world">
+                       <lookat origin="0, 0, 2" target="0.2, 0, 0" up="0, 1, 0"/></transform>
+                       <rgb name="irradiance" value="2, 2, 2"/><float name="fov" value="60"/></emitter>)"},
+        EmitterCase{"directional", LightKind::directional,
+                    R"(<emitter type="directional"><vector name="direction" x="-0.3" y="0" z="-1"/>
+                       <rgb name="irradiance" value="2, 2, 2"/></emitter>)"},
+        EmitterCase{"rectangle", LightKind::area,
+                    R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
+                       <translate z="2"/></transform><emitter type="area"><rgb name="radiance" value="2, 2, 2"/>
+                       </emitter></shape>)"},
+        EmitterCase{"sphere", LightKind::area,
+                    R"(<shape type="sphere"><point name="center" x="0.3" y="0" z="1.5"/>
+                       <float name="radius" value="0.2"/><emitter type="area">
+                       <rgb name="radiance" value="8, 8, 8"/></emitter></shape>)"},
+        EmitterCase{"constant", LightKind::environment,
+                    R"(<emitter type="constant"><rgb name="radiance" value="0.5, 0.5, 0.5"/></emitter>)"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
 
 /// A map whose four quarters of the horizon are red, green, blue and white, and whose first row is brighter.
 Image quarters() {
