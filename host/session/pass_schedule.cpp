@@ -114,8 +114,12 @@ std::optional<uint> PassSchedule::begin() {
     return present_samples_ > 0 ? std::optional(present_samples_) : std::nullopt;
 }
 
+bool PassSchedule::may_be_given_up() const {
+    return seconds_ && !is_resumed_ && samples_.empty() && present_samples_ > min_samples_;
+}
+
 bool PassSchedule::is_too_long(double of_pass) {
-    if (!seconds_ || is_resumed_ || !samples_.empty() || present_samples_ <= min_samples_) {
+    if (!may_be_given_up()) {
         return false;
     }
     if (!mark_) {
@@ -153,12 +157,22 @@ uint PassSchedule::sure_next_samples() const {
     return list_.empty() ? full_samples_ : list_[next];
 }
 
+double PassSchedule::rest_seconds(double of_pass) const {
+    if (of_pass < kJudgedPart && pace_.sample_seconds) {
+        return *pace_.sample_seconds * present_samples_ * present_part_ * (1.0 - of_pass);
+    }
+    const double in_gather = pass_watch_.seconds() - pace_.vpl_seconds;
+    return of_pass > 0.0 ? in_gather / of_pass * (1.0 - of_pass) : 0.0;
+}
+
 double PassSchedule::fraction(double of_pass) const {
     const double of_present = 1.0 - present_part_ * (1.0 - of_pass);
     const double done = done_samples_ + of_present * present_samples_;
     const double all =
         list_.empty() ? 1.0 * full_samples_ * max_passes_ : std::accumulate(list_.begin(), list_.end(), 0.0);
-    const double by_time = seconds_ ? watch_.seconds() / *seconds_ : 0.0;
+    // A pass that is not given up is made to its end, also when the time is over.
+    const double end = watch_.seconds() + (may_be_given_up() ? 0.0 : rest_seconds(of_pass));
+    const double by_time = seconds_ ? watch_.seconds() / std::max(*seconds_, end) : 0.0;
     const double by_error = error_ && target_ ? done / std::max(needed_samples(), 1.0) : 0.0;
     return std::min(1.0, std::max({done / all, by_time, by_error}));
 }

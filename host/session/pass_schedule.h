@@ -83,6 +83,10 @@ class PassSchedule {
     /// The number of samples per pixel that the error needs in all.
     [[nodiscard]] double needed_samples() const;
     [[nodiscard]] bool is_at_error() const;
+    /// Whether the present pass is begun again with fewer samples if it turns out not to fit in the time.
+    [[nodiscard]] bool may_be_given_up() const;
+    /// What the present pass still takes if it is as far as `of_pass`; 0 if nothing is known.
+    [[nodiscard]] double rest_seconds(double of_pass) const;
 
     std::vector<uint> list_;  ///< samples of each pass; empty: as the limits allow
     uint full_samples_;

@@ -138,6 +138,21 @@ TEST(PassSchedule, GivesUpOnlyAFirstPassThatTakesFarTooLong) {
     EXPECT_FALSE(slow.is_too_long(1e-6)) << "it has the fewest samples already";
 }
 
+TEST(PassSchedule, IsNotAtItsEndBeforeAPassThatTakesLongerThanTheTime) {
+    RenderSettings settings;
+    settings.gather.samples_per_pixel = 2;
+    settings.seconds = 0.01;
+    PassSchedule schedule(settings);
+    ASSERT_EQ(schedule.begin(), 2u);
+    schedule.note_vpls();
+    wait(0.03);
+    EXPECT_NEAR(schedule.fraction(0.1), 0.1, 0.05);
+    EXPECT_NEAR(schedule.fraction(0.5), 0.5, 0.05);
+    EXPECT_EQ(schedule.fraction(1.0), 1.0);
+    schedule.end({});
+    EXPECT_EQ(schedule.begin(), std::nullopt);
+}
+
 TEST(PassSchedule, ExpectsWhatTheErrorSays) {
     PassSchedule schedule(with_error(0.1));
     EXPECT_FALSE(schedule.forecast());
