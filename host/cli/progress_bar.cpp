@@ -25,6 +25,8 @@ constexpr double kSurePart = 0.15;
 /// It says something after this time and this much of the work, or after ten times as long.
 constexpr double kMeasuredSeconds = 1.0;
 constexpr double kMeasuredPart = 0.05;
+/// Work whose fraction falls by more than this was begun anew, with less to do.
+constexpr double kBegunAnew = 0.1;
 /// Of a fraction of the work, in steps.
 constexpr double kRounding = 1e-6;
 
@@ -71,6 +73,9 @@ void TimeLeft::note(double fraction, double seconds) {
 std::optional<double> TimeLeft::at(double fraction, double seconds) {
     if (steps_ == 0) {
         return std::nullopt;
+    }
+    if (first_ && bounded(fraction) < latest_.done.fraction - kBegunAnew) {
+        *this = TimeLeft(steps_);
     }
     note(bounded(fraction), seconds);
     const Span& done = latest_.done;

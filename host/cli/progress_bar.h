@@ -23,9 +23,9 @@ class TimeLeft {
     /// latest step was. With 0 steps nobody knows how much work there is, and there is no estimate.
     explicit TimeLeft(int steps = 1) : steps_(steps) {}
 
-    /// `fraction` of the work, 0 to 1, is done, `seconds` after it began; both ascend. Returns the seconds
-    /// that are left, or nothing as long as that would be a guess. The first fraction may be that of whole
-    /// steps which were done before.
+    /// `fraction` of the work, 0 to 1, is done, `seconds` after it began; both ascend, unless the work is
+    /// begun anew. Returns the seconds that are left, or nothing as long as that would be a guess. The first
+    /// fraction may be that of whole steps which were done before.
     std::optional<double> at(double fraction, double seconds);
 
   private:

@@ -112,6 +112,17 @@ TEST(TimeLeft, GoesOnFromWholeStepsOfEarlierRuns) {
     expect_times(left, {{5, 20}, {5, 20}, {5, 20}, {5, 20}}, 4, 0);
 }
 
+/// As a first pass is, if it does not fit in the time.
+TEST(TimeLeft, ForgetsWorkThatWasBegunAnew) {
+    TimeLeft left;
+    left.at(0.9, 1.0);
+    left.at(1.0, 2.0);
+    EXPECT_FALSE(left.at(0.1, 3.0));
+    for (const double part : {0.2, 0.4, 0.6, 1.0}) {
+        EXPECT_NEAR(left.at(part, 3.0 + 100.0 * (part - 0.1)).value(), 100.0 * (1.0 - part), 1e-9) << part;
+    }
+}
+
 TEST(TimeLeft, SaysNothingWhereTheAmountOfWorkIsUnknown) {
     TimeLeft left(0);
     left.at(0.0, 1.0);
