@@ -191,10 +191,12 @@ nlohmann::ordered_json json_of(const RenderRun& run, const RenderReport& report,
     return json;
 }
 
-/// What is left of the time that the picture may take.
+/// What is left of the time that the picture may take. Nothing if it may take any, or if that time is over:
+/// then a pass that takes longer is made to its end.
 std::optional<double> seconds_left(const RenderRun& run, const Stopwatch& since_begin) {
     const std::optional<double>& limit = run.options.passes.seconds;
-    return limit ? std::optional(std::max(0.0, *limit - since_begin.seconds())) : std::nullopt;
+    const double left = limit.value_or(0.0) - since_begin.seconds();
+    return left > 0.0 ? std::optional(left) : std::nullopt;
 }
 
 std::string bar_label(const RenderRun& run) {
