@@ -74,10 +74,11 @@ std::optional<double> TimeLeft::at(double fraction, double seconds) {
     if (steps_ == 0) {
         return std::nullopt;
     }
-    if (first_ && bounded(fraction) < latest_.done.fraction - kBegunAnew) {
+    fraction = bounded(fraction);
+    if (first_ && fraction < latest_.done.fraction - kBegunAnew) {
         *this = TimeLeft(steps_);
     }
-    note(bounded(fraction), seconds);
+    note(fraction, seconds);
     const Span& done = latest_.done;
     if (!mark_ && (done.fraction >= first_->done.fraction + kIgnoredPart ||
                    done.seconds >= first_->done.seconds + kIgnoredSeconds)) {

@@ -77,11 +77,12 @@ class Microfacets {
   public:
     Microfacets(double alpha, bool beckmann, int resolution)
         : alpha_(alpha), beckmann_(beckmann), nodes_(gauss_legendre(resolution)) {
-        for (const Node& u : nodes_) {
-            across_.push_back(beckmann ? slope_of_part(u.x, 0.0, kMaxSlope) : 0.0);
-        }
-        for (const Node& v : nodes_) {
-            for (const Node& u : right_half()) {
+        for (const Node& u : right_half()) {
+            if (beckmann) {
+                across_.push_back({slope_of_part(u.x, 0.0, kMaxSlope), 2.0 * u.weight});
+                continue;
+            }
+            for (const Node& v : nodes_) {
                 disk_.push_back(disk_point(2.0 * u.x - 1.0, 2.0 * v.x - 1.0, 2.0 * u.weight * v.weight));
             }
         }
@@ -109,7 +110,8 @@ class Microfacets {
         double x, y, weight;
     };
 
-    /// The concentric map of the square [−1, 1]² [Shirley and Chiu 1997], here for x > 0.
+    /// The concentric map of the square [−1, 1]², here for x > 0. [Shirley & Chiu, A Low Distortion Map
+    /// Between Disk and Square, 1997]
     static DiskPoint disk_point(double x, double y, double weight) {
         constexpr double kEighthTurn = 0.25 * std::numbers::pi;
         if (x >= std::abs(y)) {
@@ -125,8 +127,8 @@ class Microfacets {
         return std::span(nodes_).first(nodes_.size() / 2);
     }
 
-    /// Stretched by 1/α, GGX's visible normals are those of a hemisphere, projected along the view [Heitz
-    /// 2018].
+    /// Stretched by 1/α, GGX's visible normals are those of a hemisphere, projected along the view. [Heitz,
+    /// Sampling the GGX Distribution of Visible Normals, JCGT 2018]
     template <typename Value>
     [[nodiscard]] double mean_ggx(const Direction& view, const Value& value) const {
         const double length = std::hypot(alpha_ * view.x, view.z);
@@ -151,9 +153,8 @@ class Microfacets {
         double sum = 0.0;
         for (const Node& u : nodes_) {
             const double x = slope_of_part(u.x, tangent, horizon);
-            for (std::size_t v = 0; v < right_half().size(); ++v) {
-                sum += 2.0 * u.weight * nodes_[v].weight *
-                       value(view, unit(-alpha_ * x, -alpha_ * across_[v], 1.0));
+            for (const Node& y : across_) {
+                sum += u.weight * y.weight * value(view, unit(-alpha_ * x, -alpha_ * y.x, 1.0));
             }
         }
         return sum;
@@ -167,7 +168,7 @@ class Microfacets {
     double alpha_;
     bool beckmann_;
     std::vector<Node> nodes_;      // from 1 down to 0, an even number
-    std::vector<double> across_;   // Beckmann's slopes across the plane of the view, for each node
+    std::vector<Node> across_;     // Beckmann's slopes across the plane of the view, one half of them
     std::vector<DiskPoint> disk_;  // GGX's points for the right half of the square
 };
 

@@ -145,7 +145,7 @@ TEST(PassSchedule, IsNotAtItsEndBeforeAPassThatTakesLongerThanTheTime) {
     PassSchedule schedule(settings);
     ASSERT_EQ(schedule.begin(), 2u);
     schedule.note_vpls();
-    wait(0.03);
+    wait(0.3);  // long beside what a busy machine takes away between two calls
     EXPECT_NEAR(schedule.fraction(0.1), 0.1, 0.05);
     EXPECT_NEAR(schedule.fraction(0.5), 0.5, 0.05);
     EXPECT_EQ(schedule.fraction(1.0), 1.0);
