@@ -44,9 +44,10 @@ float mean_transmission(const Scene& scene, uint curve) {
     const float* row = scene.transmission_curves.data() + std::size_t{curve} * NEARLIGHT_CURVE_SIZE;
     float sum = 0.0f;
     for (int i = 0; i + 1 < NEARLIGHT_CURVE_SIZE; ++i) {
-        sum += 0.5f * (row[i] + row[i + 1]) * (static_cast<float>(i) + 0.5f);
+        const auto at = static_cast<float>(i);
+        sum += row[i] * (3.0f * at + 1.0f) + row[i + 1] * (3.0f * at + 2.0f);
     }
-    return 2.0f * sum / static_cast<float>((NEARLIGHT_CURVE_SIZE - 1) * (NEARLIGHT_CURVE_SIZE - 1));
+    return sum / 3.0f / static_cast<float>((NEARLIGHT_CURVE_SIZE - 1) * (NEARLIGHT_CURVE_SIZE - 1));
 }
 
 /// The parameters of one material at a point.

@@ -23,8 +23,13 @@ double dot(const Direction& a, const Direction& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-double cosine_of_row(std::size_t i) {
-    return static_cast<double>(i) / (NEARLIGHT_CURVE_SIZE - 1);
+/// Mitsuba's tables have so many values, at equal steps of the cosine.
+constexpr std::size_t kTableSize = 64;
+constexpr std::size_t kStepsPerTableStep = 4;
+static_assert((kTableSize - 1) * kStepsPerTableStep + 1 == NEARLIGHT_CURVE_SIZE);
+
+double table_cosine(std::size_t i) {
+    return static_cast<double>(i) / (kTableSize - 1);
 }
 
 struct Node {
@@ -197,7 +202,23 @@ template <typename Value>
 TransmissionCurve make_curve(const Value& value) {
     TransmissionCurve curve{};
     for (std::size_t i = 0; i < curve.size(); ++i) {
-        curve[i] = static_cast<float>(value(cosine_of_row(i)));
+        curve[i] = static_cast<float>(value(static_cast<double>(i) / (NEARLIGHT_CURVE_SIZE - 1)));
+    }
+    return curve;
+}
+
+/// The curve that is linear between the values of a table of Mitsuba's.
+template <typename Value>
+TransmissionCurve make_table(const Value& value) {
+    TransmissionCurve curve{};
+    double from = value(table_cosine(0));
+    for (std::size_t i = 0; i + 1 < kTableSize; ++i) {
+        const double to = value(table_cosine(i + 1));
+        for (std::size_t step = 0; step <= kStepsPerTableStep; ++step) {
+            const double part = static_cast<double>(step) / kStepsPerTableStep;
+            curve[i * kStepsPerTableStep + step] = static_cast<float>(std::lerp(from, to, part));
+        }
+        from = to;
     }
     return curve;
 }
@@ -237,7 +258,7 @@ TransmissionCurve smooth_coat_curve(double eta) {
 
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann) {
     const Microfacets microfacets(alpha, beckmann, resolution(eta));
-    return make_curve([&](double cosine) {
+    return make_table([&](double cosine) {
         return microfacets.mean(std::max(cosine, kMinCosine), [&](const Direction& view, const Direction& m) {
             return transmitted(microfacets, eta, view, m);
         });
@@ -260,13 +281,13 @@ double smooth_internal_reflectance(double eta) {
 double rough_internal_reflectance(double eta, double alpha, bool beckmann) {
     const Microfacets microfacets(alpha, beckmann, resolution(1.0 / eta));
     double sum = 0.0;
-    for (std::size_t i = 0; i < NEARLIGHT_CURVE_SIZE; ++i) {
-        const double cosine = std::max(cosine_of_row(i), kMinCosine);
+    for (std::size_t i = 0; i < kTableSize; ++i) {
+        const double cosine = std::max(table_cosine(i), kMinCosine);
         sum += cosine * microfacets.mean(cosine, [&](const Direction& view, const Direction& m) {
             return reflected(microfacets, 1.0 / eta, view, m);
         });
     }
-    return 2.0 * sum / NEARLIGHT_CURVE_SIZE;
+    return 2.0 * sum / kTableSize;
 }
 
 }  // namespace nearlight::core

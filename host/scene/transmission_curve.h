@@ -18,14 +18,14 @@ uint add_curve(Scene& scene, const TransmissionCurve& curve);
 /// 1 − F(c) of a smooth dielectric; eta = interior ÷ exterior index.
 TransmissionCurve smooth_coat_curve(double eta);
 /// The share of light, coming in at each cosine, that microfacets let through without shadowing it, as
-/// Mitsuba's `roughplastic` weighs its base, with the error of its quadrature.
+/// Mitsuba's `roughplastic` weighs its base, with the errors of its quadrature and of its table.
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann);
 /// 1 − ½(1 − c)⁵ [Burley 2012].
 TransmissionCurve principled_curve();
 
 /// The mean reflectance of a smooth coat from inside, by the fits that Mitsuba's `plastic` uses.
 double smooth_internal_reflectance(double eta);
-/// The same of microfacets as Mitsuba's `roughplastic` computes it: the plain mean over the curve's cosines.
+/// The same of microfacets as Mitsuba's `roughplastic` computes it: the plain mean over its table's cosines.
 double rough_internal_reflectance(double eta, double alpha, bool beckmann);
 
 }  // namespace nearlight::core

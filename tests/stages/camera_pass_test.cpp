@@ -168,7 +168,7 @@ float base_share(float cosine) {
     const float at = cosine * (NEARLIGHT_CURVE_SIZE - 1);
     const auto entry = static_cast<std::size_t>(at);
     const float transmitted = std::lerp(curve.at(entry), curve.at(entry + 1), at - std::floor(at));
-    EXPECT_NEAR(transmitted, 1 - dielectric_reflectance(cosine, 1.5), 1e-4);
+    EXPECT_NEAR(transmitted, 1 - dielectric_reflectance(cosine, 1.5), 1e-5);
     return transmitted / static_cast<float>((1 - smooth_internal_reflectance(1.5)) * 1.5 * 1.5);
 }
 
