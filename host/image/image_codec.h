@@ -67,9 +67,14 @@ const ImageCodec& image_codec();
 /// spaces.
 [[noreturn]] void fail_image(const char* what, const std::filesystem::path& file, std::string reason);
 
-/// Throws Error(ErrorKind::file) if a file of `file_size` bytes cannot hold `image_bytes` of pixels, because
-/// a broken header may promise any size. Deflate, the densest compression in use, packs about 1000 to 1.
+/// How many bytes of pixels a byte of a file may stand for. Deflate and LZW pack about 1000 to 1 at best;
+/// EXR's DWA packs even pictures some ten times as much.
+inline constexpr std::uintmax_t kUsualDensity = 2000;
+inline constexpr std::uintmax_t kDwaDensity = 100'000;
+
+/// Throws Error(ErrorKind::file) if `image_bytes` of pixels, more than 256 MiB, are out of proportion to a
+/// file of `file_size` bytes, because a broken header may promise any size.
 void check_fits_in_file(const std::filesystem::path& file, std::uintmax_t image_bytes,
-                        std::uintmax_t file_size);
+                        std::uintmax_t file_size, std::uintmax_t densest = kUsualDensity);
 
 }  // namespace nearlight::core

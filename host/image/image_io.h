@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading and writing image files, through OpenImageIO except for plain PPM and PGM.
+// Reading and writing image files, through OpenImageIO except for WebP and for plain PPM and PGM.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ namespace nearlight::core {
 /// Reads an image with the values of the file: 8- and 16-bit data is scaled to [0, 1] but not linearised.
 /// Throws Error(ErrorKind::file), which names the file and the reason.
 Image read_image(const std::filesystem::path& file);
-/// Reads an image file that is in memory, with the values of the file. The extension of `name` tells the
-/// format. Throws Error(ErrorKind::file).
+/// Reads an image file that is in memory, with the values of the file. Messages say `name`, whose extension
+/// tells no format but Targa. Throws Error(ErrorKind::file).
 Image read_image(std::span<const std::byte> bytes, const std::string& name);
 /// Reads an image with linear colours: those of sRGB-encoded files (8- and 16-bit integers) are decoded.
 /// Throws Error(ErrorKind::file).

@@ -204,7 +204,9 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }
-    check_fits_in_file(file, std::max(spec.image_bytes(true), spec.tile_bytes(true)), size_of(file, proxy));
+    const bool is_dwa = spec.get_string_attribute("compression").substr(0, 3) == "dwa";
+    check_fits_in_file(file, std::max(spec.image_bytes(true), spec.tile_bytes(true)), size_of(file, proxy),
+                       is_dwa ? kDwaDensity : kUsualDensity);
     Image image{.width = spec.width,
                 .height = spec.height,
                 .channels = spec.channelnames,

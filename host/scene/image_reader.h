@@ -16,7 +16,7 @@ namespace nearlight::core {
 
 /// An image file.
 struct ImageSource {
-    std::filesystem::path file;  ///< of an image in memory a name, whose extension tells the format
+    std::filesystem::path file;                         ///< of an image in memory a name, for messages
     std::optional<std::span<const std::byte>> bytes{};  ///< what the file holds, if it is in memory
 
     bool operator==(const ImageSource& other) const { return file == other.file && start() == other.start(); }

@@ -12,6 +12,7 @@
 #include "host/base/random.h"
 #include "host/image/color.h"
 #include "host/image/exr_patch.h"
+#include "host/image/image_codec.h"
 #include "tests/image/image_checks.h"
 #include "tests/image/temporary_folder.h"
 
@@ -191,20 +192,42 @@ TEST(ImageIo, AlphaIsNotMultiplied) {
 }
 
 /// A losslessly compressed WebP of one pixel, (200, 100, 50) with the alpha 51, as Pillow 12 writes it.
+constexpr std::string_view kWebpOfOnePixel{
+    "\x52\x49\x46\x46\x1e\x00\x00\x00\x57\x45\x42\x50\x56\x50\x38\x4c\x11\x00\x00\x00\x2f\x00\x00\x00"
+    "\x10\x07\x50\xb2\x22\x57\xa6\x33\x81\x88\xe8\x7f\x00\x00",
+    38};
+
 TEST(ImageIo, AlphaOfWebpIsNotMultiplied) {
-    constexpr std::string_view kWebp{
-        "\x52\x49\x46\x46\x1e\x00\x00\x00\x57\x45\x42\x50\x56\x50\x38\x4c\x11\x00\x00\x00\x2f\x00\x00\x00"
-        "\x10\x07\x50\xb2\x22\x57\xa6\x33\x81\x88\xe8\x7f\x00\x00",
-        38};
     const TemporaryFolder folder;
-    std::ofstream(folder / "a.webp", std::ios::binary).write(kWebp.data(), std::ssize(kWebp));
+    std::ofstream(folder / "a.webp", std::ios::binary)
+        .write(kWebpOfOnePixel.data(), std::ssize(kWebpOfOnePixel));
     const Image image = read_image(folder / "a.webp");
     ASSERT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
     EXPECT_FLOAT_EQ(image.at(0, 0, 0), 200.0f / 255.0f);
     EXPECT_FLOAT_EQ(image.at(0, 0, 2), 50.0f / 255.0f);
     EXPECT_FLOAT_EQ(image.at(0, 0, 3), 0.2f);
-    std::ofstream(folder / "cut.webp", std::ios::binary).write(kWebp.data(), std::ssize(kWebp) - 5);
+    std::ofstream(folder / "cut.webp", std::ios::binary)
+        .write(kWebpOfOnePixel.data(), std::ssize(kWebpOfOnePixel) - 5);
     EXPECT_THROW(read_image(folder / "cut.webp"), Error);
+}
+
+/// Without loss, WebP takes no bits for the pixels of an even image. So the file of one pixel becomes one of
+/// many by its header alone, which has width and height, less one, in 14 bits each.
+TEST(ImageIo, EvenWebpsMayBeLargeWithinReason) {
+    const TemporaryFolder folder;
+    const auto read = [&](std::uint32_t side) {
+        std::string bytes(kWebpOfOnePixel);
+        const std::uint32_t sizes = (side - 1) | (side - 1) << 14u | 1u << 28u;
+        for (std::size_t i = 0; i < 4; ++i) {
+            bytes[21 + i] = static_cast<char>(sizes >> 8u * i & 0xffu);
+        }
+        std::ofstream(folder / "a.webp", std::ios::binary).write(bytes.data(), std::ssize(bytes));
+        return read_image(folder / "a.webp");
+    };
+    const Image image = read(4100);
+    EXPECT_EQ(image.width, 4100);
+    EXPECT_FLOAT_EQ(image.at(4099, 4099, 0), 200.0f / 255.0f);
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read(16384); }).find("promises more"), std::string::npos);
 }
 
 /// Files as other programs write them, in formats that we only read.
@@ -319,6 +342,11 @@ TEST(ImageIo, HeadersThatPromiseTooMuchAreErrors) {
     write_text(folder / "a.ppm", "P6 60000 60000 255\nabc");
     EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "a.ppm"); }).find("promises more"),
               std::string::npos);
+    // An even EXR picture of 20 000 × 20 000 has 480 KB as DWAA, and more than 2 MB as ZIP.
+    const std::uintmax_t bytes = std::uintmax_t{20'000} * 20'000 * 6;
+    EXPECT_NO_THROW(check_fits_in_file("a.exr", bytes, 480'000, kDwaDensity));
+    EXPECT_THROW(check_fits_in_file("a.exr", bytes, 480'000), Error);
+    EXPECT_THROW(check_fits_in_file("a.exr", 100 * bytes, 480'000, kDwaDensity), Error);
 }
 
 TEST(ImageIo, BrokenBytesNeverBreakTheReader) {
