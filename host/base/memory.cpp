@@ -46,24 +46,35 @@ std::filesystem::path group_of_process(const std::filesystem::path& proc) {
     return {};
 }
 
-/// What the limit of one group leaves. Pages of files count as used there, but the system takes them back
+/// Bytes that a process may still take.
+struct Room {
+    std::size_t memory = kUnlimited;
+    std::size_t swap = kUnlimited;
+};
+
+/// What the limits of one group leave. Pages of files count as used there, but the system takes them back
 /// when memory is short.
-std::size_t free_in_group(const std::filesystem::path& group) {
+Room room_in_group(const std::filesystem::path& group) {
     const std::optional<std::size_t> limit = number_in(group / "memory.max");
     const std::optional<std::size_t> used = number_in(group / "memory.current");
-    if (!limit || !used) {
-        return kUnlimited;
+    Room room;
+    if (limit && used) {
+        const std::size_t files = number_after(group / "memory.stat", "inactive_file").value_or(0) +
+                                  number_after(group / "memory.stat", "active_file").value_or(0);
+        room.memory = *limit - std::min(*limit, *used - std::min(*used, files));
     }
-    const std::size_t files = number_after(group / "memory.stat", "inactive_file").value_or(0) +
-                              number_after(group / "memory.stat", "active_file").value_or(0);
-    return *limit - std::min(*limit, *used - std::min(*used, files));
+    if (const auto swap = number_in(group / "memory.swap.max")) {
+        room.swap = *swap - std::min(*swap, number_in(group / "memory.swap.current").value_or(0));
+    }
+    return room;
 }
 
 /// What the limits of a group and of all groups around it leave.
-std::size_t free_in_groups(const std::filesystem::path& groups, std::filesystem::path group) {
-    std::size_t least = free_in_group(groups);
+Room room_in_groups(const std::filesystem::path& groups, std::filesystem::path group) {
+    Room least = room_in_group(groups);
     for (; !group.empty(); group = group.parent_path()) {
-        least = std::min(least, free_in_group(groups / group));
+        const Room room = room_in_group(groups / group);
+        least = {std::min(least.memory, room.memory), std::min(least.swap, room.swap)};
     }
     return least;
 }
@@ -95,7 +106,8 @@ std::size_t free_memory(const std::filesystem::path& proc, const std::filesystem
         return kUnlimited;
     }
     const std::size_t swap = number_after(proc / "meminfo", "SwapFree:").value_or(0);
-    return std::min(*available * 1024, free_in_groups(groups, group_of_process(proc))) + swap * 1024;
+    const Room room = room_in_groups(groups, group_of_process(proc));
+    return std::min(*available * 1024, room.memory) + std::min(swap * 1024, room.swap);
 }
 
 }  // namespace nearlight::core

@@ -15,9 +15,9 @@ std::size_t peak_host_bytes();
 std::size_t free_address_space();
 
 /// The bytes of memory that this process can still take before the system runs out of it or ends a process:
-/// available memory, or what the limits of its control groups (containers, job schedulers; version 2) leave
-/// if that is less, plus free swap. The maximum of the type if the system does not tell. `proc` and `groups`
-/// are where Linux has both file systems.
+/// available memory plus free swap, each no more than the limits of its control groups (containers, job
+/// schedulers; version 2) leave. The maximum of the type if the system does not tell. `proc` and `groups` are
+/// where Linux has both file systems.
 std::size_t free_memory(const std::filesystem::path& proc = "/proc",
                         const std::filesystem::path& groups = "/sys/fs/cgroup");
 

@@ -56,6 +56,18 @@ TEST_F(FreeMemoryTest, TheTightestGroupCounts) {
     EXPECT_EQ(free(), 100 * kMiB);
 }
 
+TEST_F(FreeMemoryTest, AGroupMayBeDeniedSwap) {
+    write("groups/job/memory.max", std::to_string(500 * kMiB));
+    write("groups/job/memory.current", std::to_string(300 * kMiB));
+    write("groups/job/memory.swap.max", std::to_string(30 * kMiB));
+    write("groups/job/memory.swap.current", std::to_string(10 * kMiB));
+    EXPECT_EQ(free(), (200 + 20) * kMiB);
+    write("groups/job/step/memory.swap.max", "0\n");
+    EXPECT_EQ(free(), 200 * kMiB);
+    write("groups/job/step/memory.swap.max", "max\n");
+    EXPECT_EQ(free(), (200 + 20) * kMiB);
+}
+
 TEST_F(FreeMemoryTest, PagesOfFilesInAGroupAreFree) {
     write("groups/job/memory.max", std::to_string(500 * kMiB));
     write("groups/job/memory.current", std::to_string(300 * kMiB));
