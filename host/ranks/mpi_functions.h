@@ -20,7 +20,8 @@ enum class TransferState {
 struct MpiFunctions {
     /// Joins the job that the launcher started. Returns why that failed, or an empty text.
     std::string (*start)(int& rank, int& count, std::string& host);
-    /// Begins to send `bytes`, which must stay as they are until they are sent.
+    /// Begins to send `bytes`, which must stay as they are until they are sent. A null pointer if that
+    /// failed.
     void* (*begin_send)(int to, std::span<const std::byte> bytes);
     /// Begins to receive the next message if one is on its way, and gives `bytes` its size. They must stay
     /// where they are until it is here. A null pointer if there is none.

@@ -37,9 +37,12 @@ std::string start(int& rank, int& count, std::string& host) {
 }
 
 void* begin_send(int to, std::span<const std::byte> bytes) {
-    auto* const request = new MPI_Request(MPI_REQUEST_NULL);
-    MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD, request);
-    return request;
+    MPI_Request request = MPI_REQUEST_NULL;
+    if (MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD, &request) !=
+        MPI_SUCCESS) {
+        return nullptr;
+    }
+    return new MPI_Request(request);
 }
 
 /// MPI_Recv would wait for ever for the rest of a message whose sender died after its head was here.

@@ -114,10 +114,15 @@ void Post::check_signs_of_life(int number, const std::string& name) {
         throw Error(ErrorKind::failure,
                     name + " cannot be heard of any more, because memory for a message is lacking");
     }
-    const double silence = [&] {
+    const auto [silence, is_broken] = [&] {
         const std::lock_guard lock(mutex_);
-        return clock_.seconds() - last_heard_[static_cast<std::size_t>(number)];
+        const auto rank = static_cast<std::size_t>(number);
+        return std::pair(clock_.seconds() - last_heard_[rank], bool{is_broken_[rank]});
     }();
+    if (is_broken) {
+        has_lost_ = true;
+        throw Error(ErrorKind::failure, name + " cannot be reached: MPI lost a message");
+    }
     if (silence > max_silence_) {
         has_lost_ = true;
         throw Error(ErrorKind::failure,
@@ -139,6 +144,7 @@ void Post::run(std::promise<Rank>& joined) {
     {
         const std::lock_guard lock(mutex_);
         last_heard_.assign(static_cast<std::size_t>(rank.count), clock_.seconds());
+        is_broken_.assign(static_cast<std::size_t>(rank.count), false);
     }
     joined.set_value(rank);
     try {
@@ -179,15 +185,24 @@ void Post::begin_sending() {
         outgoing.swap(outgoing_);
     }
     for (auto& [to, message] : outgoing) {
-        Sending& one = sending_.emplace_back(Sending{.message = std::move(message)});
-        one.handle = mpi_->begin_send(to, one.message.bytes());
+        begin_to_send(to, std::move(message));
     }
+}
+
+void Post::begin_to_send(int to, Message message) {
+    Sending& one = sending_.emplace_back(Sending{.to = to, .message = std::move(message)});
+    one.handle = mpi_->begin_send(to, one.message.bytes());
 }
 
 /// Returns whether anything was sent.
 bool Post::end_sending() {
     return sending_.remove_if([this](const Sending& one) {
-        return mpi_->state_of(one.handle) != TransferState::under_way;
+        const TransferState state =
+            one.handle == nullptr ? TransferState::failed : mpi_->state_of(one.handle);
+        if (state == TransferState::failed) {
+            mark_broken(one.to);
+        }
+        return state != TransferState::under_way;
     }) > 0;
 }
 
@@ -214,6 +229,7 @@ bool Post::end_receiving() {
         if (one.handle != nullptr) {
             const TransferState state = mpi_->state_of(one.handle);
             if (state == TransferState::failed) {
+                mark_broken(one.from);
                 return true;
             }
             one.handle = state == TransferState::done ? nullptr : one.handle;
@@ -239,6 +255,11 @@ void Post::hand_over(int from, Message message) {
     }
 }
 
+void Post::mark_broken(int number) {
+    const std::lock_guard lock(mutex_);
+    is_broken_[static_cast<std::size_t>(number)] = true;
+}
+
 void Post::say_alive(const Rank& rank) {
     if (since_alive_.seconds() < kAliveSeconds) {
         return;
@@ -247,8 +268,7 @@ void Post::say_alive(const Rank& rank) {
     const int first = rank.number == 0 ? 1 : 0;
     const int last = rank.number == 0 ? rank.count - 1 : 0;
     for (int to = first; to <= last; ++to) {
-        Sending& one = sending_.emplace_back(Sending{.message = Message({.kind = MessageKind::alive})});
-        one.handle = mpi_->begin_send(to, one.message.bytes());
+        begin_to_send(to, Message({.kind = MessageKind::alive}));
     }
 }
 

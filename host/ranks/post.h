@@ -55,8 +55,8 @@ class Post {
     void send(int to, Message message);
 
     /// Throws Error(ErrorKind::failure) if a rank has not been heard of for 30 s, or for as many as the
-    /// environment variable NEARLIGHT_RANK_SILENCE says, or if the thread had to end. Each rank says
-    /// something to the leading one every second, and hears from it.
+    /// environment variable NEARLIGHT_RANK_SILENCE says, if a message to or from it was lost, or if the
+    /// thread had to end. Each rank says something to the leading one every second, and hears from it.
     void check_signs_of_life(int number, const std::string& name);
     /// Whether any rank has been lost.
     [[nodiscard]] bool has_lost() const { return has_lost_; }
@@ -65,6 +65,7 @@ class Post {
 
   private:
     struct Sending {
+        int to = 0;
         Message message;
         void* handle = nullptr;
     };
@@ -77,10 +78,12 @@ class Post {
     void run(std::promise<Rank>& joined);
     void work(const Rank& rank);
     void begin_sending();
+    void begin_to_send(int to, Message message);
     bool end_sending();
     void begin_receiving();
     bool end_receiving();
     void hand_over(int from, Message message);
+    void mark_broken(int number);
     void say_alive(const Rank& rank);
 
     std::shared_future<Rank> joined_;
@@ -94,6 +97,7 @@ class Post {
     std::condition_variable changed_;
     std::vector<std::pair<int, Message>> outgoing_;
     std::vector<double> last_heard_;  ///< seconds of clock_ for each rank
+    std::vector<bool> is_broken_;     ///< for each rank, whether a message to or from it was lost
     Stopwatch clock_;
     bool leaving_ = false;
     std::atomic<bool> has_lost_{false};
