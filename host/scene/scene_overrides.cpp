@@ -17,27 +17,25 @@ namespace {
 
 constexpr SunPosition kSkySun{35, 45};  // of a sky without a sun
 
-[[noreturn]] void refuse(const std::string& what) {
-    throw Error(ErrorKind::invalid_argument, what);
-}
-
-void check_range(double number, double low, double high, const std::string& what) {
+void check_range(double number, double low, double high, const std::string& what, std::string_view setting) {
     if (!(number >= low && number <= high)) {
-        refuse(what);
+        throw Error(ErrorKind::invalid_argument, what, setting);
     }
 }
 
 void check(const SceneOverrides& overrides) {
     if (overrides.sun) {
-        check_range(overrides.sun->elevation, 0, 90, "the sun's elevation must lie between 0 and 90 degrees");
-        check_range(overrides.sun->azimuth, -1e6, 1e6,
-                    "the sun's azimuth must be a finite number of degrees");
+        check_range(overrides.sun->elevation, 0, 90, "the sun's elevation must lie between 0 and 90 degrees",
+                    "sun");
+        check_range(overrides.sun->azimuth, -1e6, 1e6, "the sun's azimuth must be a finite number of degrees",
+                    "sun");
     }
     check_range(overrides.environment_rotation, -1e6, 1e6,
-                "the rotation of the environment must be a finite number of degrees");
-    for (const double scale : {overrides.environment_scale, overrides.light_scale}) {
-        check_range(scale, 0, 1e30, "the scale of light must be a finite number, 0 or more");
-    }
+                "the rotation of the environment must be a finite number of degrees", "environment_rotation");
+    check_range(overrides.environment_scale, 0, 1e30,
+                "the scale of the environment must be a finite number, 0 or more", "environment_scale");
+    check_range(overrides.light_scale, 0, 1e30, "the scale of light must be a finite number, 0 or more",
+                "light_scale");
 }
 
 /// The axis of the world that is nearest to the camera's up, unless the pose looks along it.
@@ -69,7 +67,9 @@ std::optional<Vec3> color_named(const std::string& text) {
     const Vec3 color{static_cast<float>(numbers[0]), static_cast<float>(numbers[numbers.size() / 2]),
                      static_cast<float>(numbers.back())};
     if (!is_finite(color) || !(min(color, {0, 0, 0}) == Vec3{0, 0, 0})) {
-        refuse("the colour '" + text + "' of the environment must be finite, and not below 0");
+        throw Error(ErrorKind::invalid_argument,
+                    "the colour '" + text + "' of the environment must be finite, and not below 0",
+                    "environment");
     }
     return color;
 }

@@ -2,6 +2,7 @@
 // The exception that nearlight throws.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,17 +25,21 @@ enum class ErrorKind {
 /// failed, on what (file and line, device, kernel), and what to do.
 class NEARLIGHT_API Error : public std::runtime_error {
   public:
-    /// The characters of `setting` must outlive the error, as those of a string literal do.
     Error(ErrorKind kind, const std::string& message, std::string_view setting = {})
-        : std::runtime_error(message), kind_(kind), setting_(setting) {}
+        : std::runtime_error(message),
+          kind_(kind),
+          setting_(setting.empty() ? nullptr : std::make_shared<const std::string>(setting)) {}
     [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
     /// The setting to change, as the library spells it ("kernel_dir", "strict"), so that a program can name
-    /// its own option or button for it; empty if no single setting is to blame.
-    [[nodiscard]] std::string_view setting() const noexcept { return setting_; }
+    /// its own option or button for it; empty if no single setting is to blame. Valid as long as the error or
+    /// a copy of it.
+    [[nodiscard]] std::string_view setting() const noexcept {
+        return setting_ ? std::string_view(*setting_) : std::string_view();
+    }
 
   private:
     ErrorKind kind_;
-    std::string_view setting_;
+    std::shared_ptr<const std::string> setting_;  // copies of the error share it, since they may not throw
 };
 
 }  // namespace nearlight

@@ -28,7 +28,6 @@ py::str decoded(std::string_view text);
 /// The bytes of a str, which may be the name of a file that is no UTF-8 (os.fsencode()).
 std::string encoded(py::handle text);
 /// Throws Python's TypeError: "NAME must be WANTED, not VALUE".
-/// (In all these functions `name` is a string literal, because Error::setting() refers to it.)
 [[noreturn]] void fail_type(const char* name, const std::string& wanted, py::handle value);
 
 bool to_bool(const char* name, py::handle value);
