@@ -14,9 +14,9 @@ std::shared_ptr<PyAnimation> make_animation(const py::object& file, const py::ob
                                             const py::object& options, const py::object& load,
                                             const py::object& session, const py::kwargs& fields) {
     const std::filesystem::path path = to_path(file);
-    const auto chosen = settings_of<AnimationOptions>("Animation", options, fields);
-    const auto loading = settings_of<LoadOptions>("Animation", load, {});
-    const auto getting_ready = settings_of<SessionOptions>("Animation", session, {});
+    const auto chosen = settings_of<AnimationOptions>("Animation", "options", options, fields);
+    const auto loading = settings_of<LoadOptions>("Animation", "load", load, {});
+    const auto getting_ready = settings_of<SessionOptions>("Animation", "session", session, {});
     const SharedDevices on = devices_of(devices);
     return std::make_shared<PyAnimation>(
         in_turn(*on.turns, [&] { return Animation(on.devices, path, chosen, loading, getting_ready); }),
@@ -26,7 +26,7 @@ std::shared_ptr<PyAnimation> make_animation(const py::object& file, const py::ob
 std::shared_ptr<Picture> render_frame(PyAnimation& self, const py::object& frame, const py::object& settings,
                                       py::object progress, const py::kwargs& fields) {
     const int number = Convert<int>::from("frame", frame);
-    const auto chosen = settings_of<RenderSettings>("render", settings, fields);
+    const auto chosen = settings_of<RenderSettings>("render", "settings", settings, fields);
     ProgressCall call(std::move(progress));
     auto picture = std::make_shared<Picture>(
         in_turn(*self.turns(), [&] { return self.get().render(number, chosen, std::ref(call)); }));

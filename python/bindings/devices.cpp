@@ -50,7 +50,7 @@ SharedDevices choose_devices(const std::string& choice, const DeviceOptions& opt
 
 SharedDevices devices_of(const py::object& devices) {
     return py::isinstance<SharedDevices>(devices) ? devices.cast<SharedDevices>()
-                                                  : choose_devices(encoded(py::str(devices)), {});
+                                                  : choose_devices(to_name("devices", devices), {});
 }
 
 void add_devices(py::module_& module) {
@@ -64,8 +64,10 @@ void add_devices(py::module_& module) {
         "options: the fields of DeviceOptions.\n\n"
         "Sessions that share devices take turns; for work at the same time in several threads,\n"
         "choose devices for each, or parts of one device ('0/2.0' and '0/2.1').")
-        .def(py::init([](const std::string& choice, const py::kwargs& options) {
-                 return choose_devices(choice, settings_of<DeviceOptions>("Devices", py::none(), options));
+        .def(py::init([](const py::object& choice, const py::kwargs& options) {
+                 return choose_devices(
+                     to_name("choice", choice),
+                     settings_of<DeviceOptions>("Devices", "settings", py::none(), options));
              }),
              py::arg("choice") = "auto", "__init__(self, choice='auto', **options)\n--\n\n")
         .def_property_readonly(

@@ -113,7 +113,7 @@ std::string text_of(const Image& image) {
 
 void write(const Image& image, const py::object& file, const py::object& options, const py::kwargs& fields) {
     const std::filesystem::path path = to_path(file);
-    const WriteOptions chosen = settings_of<WriteOptions>("write", options, fields);
+    const WriteOptions chosen = settings_of<WriteOptions>("write", "options", options, fields);
     without_gil([&] {
         write_image(path, image, chosen);
         return true;
@@ -196,13 +196,22 @@ void add_images(py::module_& module) {
         .def_readonly("non_finite", &Difference::non_finite,
                       "pixels that are left out: NaN or infinity in either")
         .def("__repr__", [](const Difference& difference) { return text_of(difference); });
-    add_reader(module, "read_image", read_image,
-               "read_image(file)\n--\n\n"
-               "Reads EXR, PNG, JPEG and whatever else OpenImageIO knows, with the values of the file.");
+    add_reader(
+        module, "read_image", read_image,
+        "read_image(file)\n--\n\n"
+        "Reads EXR, PNG, JPEG, HDR, TIFF, Targa, BMP, GIF, WebP, PSD, DDS, PNM and PFM, with the values of "
+        "the file.");
     add_reader(module, "read_linear_image", read_linear_image,
                "read_linear_image(file)\n--\n\n"
                "Reads a picture with linear values, as renders have them: the sRGB curve of PNG and JPEG is "
                "removed.");
+    module.def(
+        "automatic_exposure",
+        [](const SharedImage& image) { return without_gil([&] { return automatic_exposure(*image); }); },
+        py::arg("image"),
+        "automatic_exposure(image)\n--\n\n"
+        "The exposure in stops at which a picture with linear values looks right on a screen; for "
+        "Image.write() of pictures whose scene has_open_exposure.");
     module.def(
         "diff",
         [](const SharedImage& image, const SharedImage& reference, const std::string& layer) {

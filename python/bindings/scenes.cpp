@@ -23,7 +23,7 @@ py::object path_object(const std::filesystem::path& path) {
 
 Scene load(const py::object& file, const py::object& options, const py::kwargs& fields) {
     const std::filesystem::path path = to_path(file);
-    const LoadOptions chosen = settings_of<LoadOptions>("load", options, fields);
+    const LoadOptions chosen = settings_of<LoadOptions>("load", "options", options, fields);
     return without_gil([&] { return Scene::load(path, chosen); });
 }
 
@@ -58,6 +58,8 @@ void add_scenes(py::module_& module) {
         .def_property_readonly("height", &Scene::height, "pixels of the camera's picture")
         .def_property_readonly("camera", &Scene::camera,
                                "where the camera stands, as a CameraPose of one's own")
+        .def_property_readonly("has_open_exposure", &Scene::has_open_exposure,
+                               "whether the file leaves open how bright its pictures are to be, as models do")
         .def_property_readonly("notes", &Scene::notes, "a list of SceneNote")
         .def("hash", &Scene::hash, py::call_guard<py::gil_scoped_release>(),
              "hash(self)\n--\n\nA number that equal scenes share, on any machine.")

@@ -60,7 +60,7 @@ std::vector<Vec3> vectors_of(const char* name, const FloatArray& array) {
 
 std::shared_ptr<PySession> make_session(const py::object& scene, const py::object& devices,
                                         const py::object& options, const py::kwargs& fields) {
-    const SessionOptions chosen = settings_of<SessionOptions>("Session", options, fields);
+    const SessionOptions chosen = settings_of<SessionOptions>("Session", "options", options, fields);
     const Scene loaded = py::isinstance<Scene>(scene)
                              ? scene.cast<Scene>()
                              : py::module_::import("nearlight").attr("load")(scene).cast<Scene>();
@@ -71,7 +71,7 @@ std::shared_ptr<PySession> make_session(const py::object& scene, const py::objec
 
 std::shared_ptr<PyView> look(PySession& self, const py::object& settings, const py::object& seed,
                              const py::kwargs& fields) {
-    const ViewSettings chosen = settings_of<ViewSettings>("look", settings, fields);
+    const ViewSettings chosen = settings_of<ViewSettings>("look", "settings", settings, fields);
     const std::uint32_t number = to_seed(seed);
     return std::make_shared<PyView>(in_turn(*self.turns(), [&] { return self.get().look(chosen, number); }),
                                     self.turns());
@@ -79,7 +79,7 @@ std::shared_ptr<PyView> look(PySession& self, const py::object& settings, const 
 
 std::shared_ptr<PyVplSet> sample(PySession& self, const PyView& view, const py::object& settings,
                                  const py::object& seed, const py::kwargs& fields) {
-    const SamplingSettings chosen = settings_of<SamplingSettings>("sample", settings, fields);
+    const SamplingSettings chosen = settings_of<SamplingSettings>("sample", "settings", settings, fields);
     const std::uint32_t number = to_seed(seed);
     return std::make_shared<PyVplSet>(
         in_turn(*self.turns(), [&] { return self.get().sample(view.get(), chosen, number); }), self.turns());
@@ -92,7 +92,7 @@ void save_vpls(PySession& self, const PyVplSet& vpls, const py::object& file) {
 
 SharedPicture gather(PySession& self, const PyView& view, const PyVplSet& vpls, const py::object& settings,
                      const py::object& seed, py::object progress, const py::kwargs& fields) {
-    const GatherSettings chosen = settings_of<GatherSettings>("gather", settings, fields);
+    const GatherSettings chosen = settings_of<GatherSettings>("gather", "settings", settings, fields);
     const std::uint32_t number = to_seed(seed);
     ProgressCall call(std::move(progress));
     auto picture = std::make_shared<Picture>(in_turn(*self.turns(), [&] {
@@ -104,7 +104,7 @@ SharedPicture gather(PySession& self, const PyView& view, const PyVplSet& vpls, 
 
 SharedPicture render(PySession& self, const py::object& settings, py::object progress,
                      const py::kwargs& fields) {
-    const RenderSettings chosen = settings_of<RenderSettings>("render", settings, fields);
+    const RenderSettings chosen = settings_of<RenderSettings>("render", "settings", settings, fields);
     ProgressCall call(std::move(progress));
     auto picture = std::make_shared<Picture>(
         in_turn(*self.turns(), [&] { return self.get().render(chosen, std::ref(call)); }));
@@ -115,7 +115,8 @@ SharedPicture render(PySession& self, const py::object& settings, py::object pro
 py::array irradiance(PySession& self, const py::object& points, const py::object& normals,
                      const PyVplSet& vpls, const py::object& settings, const py::object& seed,
                      const py::kwargs& fields) {
-    const IrradianceSettings chosen = settings_of<IrradianceSettings>("irradiance", settings, fields);
+    const IrradianceSettings chosen =
+        settings_of<IrradianceSettings>("irradiance", "settings", settings, fields);
     const std::uint32_t number = to_seed(seed);
     const FloatArray places = to_floats("points", points);
     const FloatArray directions = to_floats("normals", normals);

@@ -82,7 +82,7 @@ void add_class(py::module_& module) {
     const char* const name = FieldsOf<Settings>::name;
     py::class_<Settings> cls(module, name, class_doc<Settings>().c_str());
     cls.def(py::init([name](const py::kwargs& keywords) {
-                return settings_of<Settings>(name, py::none(), keywords);
+                return settings_of<Settings>(name, "settings", py::none(), keywords);
             }),
             init_doc<Settings>().c_str());
     for_each_field<Settings>([&](const auto& field) { add_property(cls, field); });

@@ -66,11 +66,12 @@ bool assign(Settings& settings, const std::string& name, py::handle value) {
     return found;
 }
 
-/// The settings of a call of `what`: those of the argument `settings`, or the defaults if it is None, with
+/// The settings of a call of `what`: those of the argument of that name, or the defaults if it is None, with
 /// the fields that keywords name. Whole members are set before single fields of them.
 template <HasFields Settings>
-Settings settings_of(const std::string& what, py::handle settings, const py::kwargs& keywords) {
-    Settings result = settings.is_none() ? Settings{} : Convert<Settings>::from("settings", settings);
+Settings settings_of(const std::string& what, const char* argument, py::handle settings,
+                     const py::kwargs& keywords) {
+    Settings result = settings.is_none() ? Settings{} : Convert<Settings>::from(argument, settings);
     for (const bool whole : {true, false}) {
         for (const auto& [key, value] : keywords) {
             const auto name = py::cast<std::string>(key);

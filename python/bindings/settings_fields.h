@@ -181,7 +181,7 @@ struct FieldsOf<LoadOptions> {
         Field{"origin", &LoadOptions::origin, "where the camera stands, m; None: as the file says"},
         Field{"target", &LoadOptions::target, "what the camera looks at, m"},
         Field{"up", &LoadOptions::up, "what points upwards in the picture"},
-        Field{"field_of_view", &LoadOptions::field_of_view, "horizontal, degrees"},
+        Field{"fov_x_degrees", &LoadOptions::fov_x_degrees, "horizontal, degrees"},
         Field{"environment", &LoadOptions::environment,
               "an image file, 'sky', or a colour as 'R,G,B' or '#rrggbb'; '': the scene's own"},
         Field{"environment_rotation", &LoadOptions::environment_rotation, "degrees about +Y"},

@@ -114,6 +114,15 @@ def test_screen_pictures_are_compared_linear(tmp_path):
     assert nearlight.read_image(tmp_path / "a.png")["beauty"].max() == pytest.approx(137 / 255)
 
 
+def test_models_are_exposed_automatically(tmp_path):
+    (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert nearlight.load(tmp_path / "model.obj").has_open_exposure
+    image = nearlight.Image(np.full((8, 8, 3), 0.05, np.float32))
+    stops = nearlight.automatic_exposure(image)
+    brighter = nearlight.Image(np.full((8, 8, 3), 0.2, np.float32))
+    assert nearlight.automatic_exposure(brighter) == pytest.approx(stops - 2, abs=1e-3)
+
+
 def test_irradiance_follows_the_inverse_square_law(session, vpls):
     points = np.array([[0, 0, 0], [0.75, 0, 0], [0, 0, 0.5]])
     light = session.irradiance(points, [0, 0, 1], vpls, direct_samples=16, paths=16)

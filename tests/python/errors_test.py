@@ -28,6 +28,22 @@ def test_devices_that_are_missing(floor):
     assert (error.value.kind, error.value.exit_code) == ("no_device", 4)
 
 
+def test_devices_have_names_and_numbers():
+    by_number = nearlight.Devices(nearlight.list_devices()[0].index)
+    assert by_number.infos[0].name == nearlight.list_devices()[0].name
+    with pytest.raises(TypeError, match="choice must be a name or a number, not None"):
+        nearlight.Devices(None)
+
+
+def test_the_argument_of_the_wrong_type_is_named(floor):
+    with pytest.raises(TypeError, match="options must be a LoadOptions"):
+        nearlight.load("nosuch.xml", options=3)
+    with pytest.raises(TypeError, match="load must be a LoadOptions"):
+        nearlight.Animation("nosuch.glb", load=3)
+    with pytest.raises(TypeError, match="devices must be a name or a number, not None"):
+        nearlight.Session(floor, None)
+
+
 @pytest.mark.parametrize("width", [0, -1, 2**40, 65537])
 def test_settings_out_of_range(session, width):
     with pytest.raises(ValueError, match=f"width is {width}") as error:

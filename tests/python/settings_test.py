@@ -210,7 +210,16 @@ def test_stubs_name_the_members_of_classes_and_no_others(stubs, name):
 
 @pytest.mark.parametrize(
     "name",
-    ["load", "read_image", "read_linear_image", "diff", "diff_map", "list_devices", "picture_channels"],
+    [
+        "load",
+        "read_image",
+        "read_linear_image",
+        "automatic_exposure",
+        "diff",
+        "diff_map",
+        "list_devices",
+        "picture_channels",
+    ],
 )
 def test_stubs_have_the_arguments_of_functions(stubs, name):
     arguments = stubs[name].args
