@@ -11,6 +11,7 @@ inline constexpr uint kMaxVpls = 50'000'000;         ///< VPLs of a set
 inline constexpr uint kMaxSamplesPerPixel = 65536;   ///< of a pass
 inline constexpr uint kMaxLightSamples = 1'000'000;  ///< light samples, and rays, of a pixel
 inline constexpr uint kMaxPathDepth = 1024;          ///< as Mitsuba counts it
+inline constexpr float kMaxLength = 1e9f;            ///< of a range or clamp radius, m
 inline constexpr uint kMaxPasses = 1'000'000;
 inline constexpr int kMaxFrame = 999'999;
 

@@ -14,6 +14,7 @@ namespace nearlight {
 namespace {
 
 using core::kMaxFrame;
+using core::kMaxLength;
 using core::kMaxLightSamples;
 using core::kMaxPasses;
 using core::kMaxPathDepth;
@@ -21,7 +22,6 @@ using core::kMaxPictureSide;
 using core::kMaxSamplesPerPixel;
 using core::kMaxVpls;
 
-constexpr float kMaxLength = 1e9f;
 constexpr float kMaxRoulette = 1000.0f;
 /// The maximum deviation of a normal's length from 1. Rounding stays below it; a larger deviation means that
 /// the normal was not normalised.

@@ -9,6 +9,7 @@
 
 #include "host/base/files.h"
 #include "host/base/hash.h"
+#include "host/base/limits.h"
 #include "host/base/packed_direction.h"
 #include "host/scene/file_text.h"
 #include "host/scene/ply_file.h"
@@ -29,10 +30,9 @@ constexpr std::array kColumns{"x",   "y",     "z",    "nx",    "ny",    "nz",
 constexpr std::size_t kNeeded = 9;
 using Row = std::array<double, kColumns.size()>;
 
-/// The greatest values that a header may have. Those of the settings `clamp_radius` and
-/// `direct_samples_per_pixel` are as great.
-constexpr float kMaxClampRadius = 1e9f;
-constexpr uint kMaxLightSamples = 1'000'000;
+/// What a file may say of a VPL. The other bits have meanings of their own where gathers read VPLs.
+constexpr uint kFlagsOfFiles =
+    NEARLIGHT_VPL_CLOSE | NEARLIGHT_VPL_MAPPED | NEARLIGHT_VPL_TILTED | ~0u << NEARLIGHT_VPL_CURVE_SHIFT;
 
 template <typename Number>
 std::string decimal(Number number) {
@@ -98,8 +98,8 @@ VplOrigin origin_of(const fs::path& file, const PlyHeader& header) {
     if (!value_of(header, "clamp_radius").empty()) {
         const float radius = number_of<float>(file, header, "clamp_radius");
         const uint samples = number_of<uint>(file, header, "light_samples");
-        if (!(radius >= 0.0f && radius <= kMaxClampRadius) || samples < 1 || samples > kMaxLightSamples) {
-            fail_ply(file, "the header's clamp radius must be from 0 to " + decimal(kMaxClampRadius) +
+        if (!(radius >= 0.0f && radius <= kMaxLength) || samples < 1 || samples > kMaxLightSamples) {
+            fail_ply(file, "the header's clamp radius must be from 0 to " + decimal(kMaxLength) +
                                " and its light samples from 1 to " + decimal(kMaxLightSamples));
         }
         origin.ray_budget = {.clamp_radius = radius, .direct_samples_per_pixel = samples};
@@ -159,6 +159,9 @@ Vpl vpl_of(const fs::path& file, std::size_t index, const Row& row, bool has_sha
         fail_ply(file, "VPL " + std::to_string(index) +
                            " is broken: it needs a finite position, a normal, and powers of 0 or more");
     }
+    if ((vpl.flags & ~kFlagsOfFiles) != 0) {
+        fail_ply(file, "VPL " + std::to_string(index) + " has flags that nearlight does not know");
+    }
     if (std::abs(length - 1.0f) > 1e-3f) {
         // The reciprocal of the shortest lengths is infinite.
         vpl.normal = {vpl.normal.x / length, vpl.normal.y / length, vpl.normal.z / length};
@@ -214,6 +217,9 @@ VplFile read_vpl_file(const fs::path& file) {
         fail_ply(file, "VPLs must be the first element of the file, and be called `vertex`");
     }
     PlyReader reader(file, std::string_view(text).substr(header.size), header.format);
+    if (element->count > kMaxVpls) {
+        fail_ply(file, "it has more than " + decimal(kMaxVpls) + " VPLs");
+    }
     reader.check_size_of(*element);
     VplFile set{.vpls = read_vpls(file, reader, *element)};
     if (std::ranges::find(header.comments, kTitle) != header.comments.end()) {

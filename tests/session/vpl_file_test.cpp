@@ -183,7 +183,10 @@ TEST(VplFile, BrokenFilesAreErrors) {
     fails(header + "0 0 0 0 0 1 1 1e39 1\n", "VPL 0 is broken");
     std::string many = header;
     many.replace(many.find("vertex 1"), 8, "vertex 99999999999");
-    fails(many, "truncated");
+    fails(many, "more than 50000000 VPLs");
+    // Bit 1 would have a gather square the light.
+    fails(kHeader + "property uint flags\nend_header\n0 0 0 0 0 1 1 1 1 2\n",
+          "flags that nearlight does not know");
     const std::string format = "ply\nformat ascii 1.0\n";
     const auto titled = [&](const std::string& comments) {
         return format + "comment nearlight virtual point lights, version 1\n" + comments +
@@ -208,10 +211,9 @@ TEST(VplFile, BrokenFilesAreErrors) {
             "shared limit must be a finite number");
     }
     for (const char* rays : {"-1", "yes", "65"}) {
-        fails(
-            titled(std::string("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n") +
-                   "comment clamp_radius 1\ncomment light_samples 16\ncomment aimed_rays " + rays + "\n"),
-            "aimed");
+        fails(titled(std::string("comment scene 1\ncomment max_depth 8\ncomment close 0\ncomment asked 0\n") +
+                     "comment clamp_radius 1\ncomment light_samples 16\ncomment aimed_rays " + rays + "\n"),
+              "aimed");
     }
     VplFile odd{.vpls = {Vpl{}}};
     odd.vpls[0].flags = 7u << NEARLIGHT_VPL_CURVE_SHIFT;
