@@ -82,7 +82,7 @@ std::string Application::command() const {
     std::vector<std::string> arguments = task_.scene_arguments;
     if (!shown.view.camera) {
         arguments.insert(arguments.end(), task_.camera_arguments.begin(), task_.camera_arguments.end());
-    } else if (task_.load.field_of_view) {
+    } else if (task_.load.fov_x_degrees) {
         shown.view.camera->fov_x_degrees = state_.camera.fov_degrees;
     }
     return command_text(arguments, shown, look(), state_.save_name.data());
@@ -317,11 +317,11 @@ void Application::save() {
 }
 
 void Application::end_if_wanted() {
-    if (task_.frames == 0) {
+    if (task_.until_samples == 0) {
         return;
     }
     renderer_.rethrow_error();
-    if (!frame_ || frame_->samples == 0 || (frame_->samples < task_.frames && !renderer_.is_done())) {
+    if (!frame_ || frame_->samples == 0 || (frame_->samples < task_.until_samples && !renderer_.is_done())) {
         return;
     }
     if (task_.inspect && !std::exchange(has_asked_, true)) {

@@ -27,7 +27,7 @@ class Application {
     /// Draws one frame of the window, after the input since the frame before. Rethrows what kept the scene
     /// from being rendered.
     void draw();
-    /// Whether the frames that the task asks for are made.
+    /// Whether the picture has the samples after which the task ends.
     [[nodiscard]] bool has_ended() const { return has_ended_; }
 
   private:

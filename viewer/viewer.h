@@ -39,7 +39,8 @@ struct ViewerTask {
     std::string tev{};  ///< HOST:PORT of the image viewer tev, which gets whole pictures too; empty: none
 
     // For tests, screenshots and measurements.
-    std::uint32_t frames = 0;  ///< ends after so many passes of full size; 0: when the window closes
+    /// Ends when the picture has so many samples per pixel; 0: when the window closes.
+    std::uint32_t until_samples = 0;
     std::filesystem::path screenshot{};  ///< gets the window's content before the end; empty: none
     std::optional<Pixel> inspect{};      ///< inspects this pixel before the screenshot
     bool shows_vpls = false;

@@ -30,9 +30,18 @@ struct CompareOptions {
     std::optional<std::string> samplers;  ///< empty: all
     std::optional<std::string> vpls;
     std::optional<std::string> baseline;
-    std::vector<std::string> crops;
     CompareSettings settings;
 };
+
+std::vector<Crop> crops_in(const std::vector<std::string>& texts) {
+    std::vector<Crop> crops;
+    for (const std::string& text : texts) {
+        const PixelWindow window = parse_window(text);
+        crops.push_back({static_cast<int>(window.x), static_cast<int>(window.y),
+                         static_cast<int>(window.width), static_cast<int>(window.height)});
+    }
+    return crops;
+}
 
 /// Makes settings from the options, and checks them.
 CompareSettings settled(const CompareOptions& options) {
@@ -47,9 +56,6 @@ CompareSettings settled(const CompareOptions& options) {
     }
     if (options.vpls) {
         settings.vpl_counts = parse_vpl_counts(*options.vpls);
-    }
-    for (const std::string& crop : options.crops) {
-        settings.crops.push_back(parse_crop(crop));
     }
     if (options.baseline) {
         settings.baseline = parse_method(*options.baseline);
@@ -174,10 +180,12 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
         ->type_name("N")
         ->capture_default_str();
     command
-        .add_option("--crop", options.crops,
-                    "Part of the picture to enlarge in the report; may be given several times (default: "
-                    "where errors are largest)")
-        ->type_name("X,Y,W,H")
+        .add_option_function<std::vector<std::string>>(
+            "--crop",
+            [&settings](const std::vector<std::string>& texts) { settings.crops = crops_in(texts); },
+            "Part of the picture to enlarge in the report; may be given several times (default: "
+            "where errors are largest)")
+        ->type_name("WxH+X+Y")
         ->allow_extra_args(false);
 }
 
@@ -191,7 +199,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
     command
         .add_option("--clamp-radius", settings.clamp_radius,
                     "Clamp radius of all samplers and of the reference, in m")
-        ->check(number_from(0, 1e9))
+        ->check(number_from(0, kMaxLength))
         ->type_name("R");
     command
         .add_option("--clamp-fraction", settings.clamp_fraction,
@@ -202,7 +210,7 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
         .add_option("--range", settings.range,
                     "Distance from the camera at which the close range ends, in m (default: as in "
                     "`render`)")
-        ->check(CLI::Range(1e-6f, 1e9f))
+        ->check(number_from(1e-6, kMaxLength))
         ->type_name("R");
     command
         .add_option("--max-depth", settings.max_depth,

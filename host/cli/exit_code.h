@@ -14,7 +14,7 @@ enum class ExitCode {
     no_device = 4,      ///< no usable OpenCL device
     kernel_build = 5,   ///< a kernel did not compile
     out_of_memory = 6,  ///< on the host or the device
-    interrupted = 130,  ///< Ctrl-C; the partial image was saved
+    interrupted = 130,  ///< Ctrl-C; what a render had made of its picture was saved
 };
 
 /// The code that main() returns for an Error of the given kind.

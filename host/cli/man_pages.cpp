@@ -18,6 +18,9 @@ The folder for compiled kernels, trees and tunables where \fB\-\-cache\-dir\fR i
 .TP
 .B NEARLIGHT_OIDN
 The library file of Open Image Denoise, for \fB\-\-denoise\fR.
+.TP
+.B NEARLIGHT_RANK_SILENCE
+Seconds after which a rank that says nothing counts as lost, in a job of MPI; 30 if not given.
 )";
 
 constexpr const char* kExitStatus = R"(.SH EXIT STATUS
@@ -44,7 +47,7 @@ a kernel does not compile
 out of memory
 .TP
 .B 130
-interrupted; the partial picture was saved
+interrupted; what a render had made of its picture was saved
 )";
 
 /// Text without characters that have a meaning in man(7). A dash becomes one that can be copied to a shell.

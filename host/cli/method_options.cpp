@@ -49,7 +49,7 @@ void add_sample_options(CLI::App& command, GatherSettings& gather, Pilot pilot) 
             fmt::format("Shadow rays per pixel to area lights, the environment and the sun, and to point "
                         "lights if there are many (default: {})",
                         pilot == Pilot::runs ? "16 to 128, chosen by a pilot" : "32"))
-        ->check(CLI::Range(1u, 1'000'000u))
+        ->check(CLI::Range(1u, kMaxLightSamples))
         ->type_name("N");
 }
 
@@ -127,7 +127,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
         .add_option("--rays", settings.gather.rays_per_pixel,
                     "Rays per pixel for what --compensate brings back, and as many that look for lamps and "
                     "windows in rough reflections")
-        ->check(CLI::Range(1u, 1'000'000u))
+        ->check(CLI::Range(1u, kMaxLightSamples))
         ->type_name("N")
         ->capture_default_str();
     command
@@ -154,8 +154,8 @@ void settle(const MethodTexts& texts, RenderSettings& settings) {
     check_is_close_range(texts, settings.sampling);
     settings.sampling.policy = texts.policy.value_or(settings.sampling.policy);
     settings.sampling.close_fraction = number_or_auto("--close-fraction", texts.close_fraction, 0.0f, 1.0f);
-    settings.view.range = number_or_auto("--range", texts.range, 1e-6f, 1e9f);
-    settings.view.clamp_radius = number_or_auto("--clamp-radius", texts.clamp_radius, 0.0f, 1e9f);
+    settings.view.range = number_or_auto("--range", texts.range, 1e-6f, kMaxLength);
+    settings.view.clamp_radius = number_or_auto("--clamp-radius", texts.clamp_radius, 0.0f, kMaxLength);
     settings.sampling.cuts = has_cuts(texts.cuts, settings);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/base/files.h"
+#include "host/base/limits.h"
 #include "host/base/stopwatch.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/log.h"
@@ -257,7 +258,7 @@ void add_reference_command(CommandLine& line) {
     command
         .add_option("--clamp-radius", options->clamp_radius,
                     "Clamp radius, in m: bound 1/r² below this distance; 0 bounds nothing")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_from(0, kMaxLength));
     command.add_flag("--indirect-only", options->indirect_only, "Leave out emission and direct light");
     command.add_flag("--pixel-centers", options->pixel_centers,
                      "Send all samples through the centres of pixels, as `nearlight render --spp 1` does");

@@ -41,7 +41,7 @@ struct ViewOptions {
     ImageSize size;
     ScreenOptions screen;
     std::string layer = "beauty";
-    uint frames = 0;
+    uint until_samples = 0;
     std::string screenshot;
     std::vector<int> inspect;  ///< empty, or X and Y
     bool shows_vpls = false;
@@ -79,7 +79,7 @@ nearlight::LoadOptions public_options(const SceneOptions& scene) {
                                 .origin = public_point(overrides.origin),
                                 .target = public_point(overrides.target),
                                 .up = public_point(overrides.up),
-                                .field_of_view = overrides.fov_degrees,
+                                .fov_x_degrees = overrides.fov_degrees,
                                 .environment = overrides.environment,
                                 .environment_rotation = overrides.environment_rotation,
                                 .environment_scale = overrides.environment_scale,
@@ -173,14 +173,9 @@ viewer::ViewerTask task_of(const ViewOptions& options) {
     set_look(options.screen, task);
     task.scene_arguments = scene_arguments(options.scene);
     task.camera_arguments = camera_arguments(options.scene.overrides);
-    task.messages = [](MessageLevel level, std::string_view text) {
-        spdlog::log(level == MessageLevel::error     ? spdlog::level::err
-                    : level == MessageLevel::warning ? spdlog::level::warn
-                                                     : spdlog::level::debug,
-                    "{}", text);
-    };
+    task.messages = [](MessageLevel level, std::string_view text) { show_message(level, text); };
     task.tev = options.tev;
-    task.frames = options.frames;
+    task.until_samples = options.until_samples;
     task.screenshot = options.screenshot;
     if (!options.inspect.empty()) {
         task.inspect = viewer::Pixel{.x = options.inspect[0], .y = options.inspect[1]};
@@ -238,30 +233,31 @@ void add_window_options(CLI::App& command, ViewOptions& options) {
             ->capture_default_str();
     CLI::Option* const vpls =
         command.add_flag("--show-vpls", options.shows_vpls, "Draw VPLs over the picture from the start");
-    CLI::Option* const frames =
+    CLI::Option* const until_samples =
         command
             .add_option(
-                "--frames", options.frames,
+                "--until-samples", options.until_samples,
                 "End by itself when the picture has so many samples per pixel, for tests and screenshots "
                 "(default: when the window is closed)")
             ->check(CLI::Range(1u, kMaxSamplesPerPixel))
             ->type_name("N");
-    command.add_option("--inspect", options.inspect, "With --frames: ask what lights this pixel")
-        ->needs(frames)
+    command.add_option("--inspect", options.inspect, "With --until-samples: ask what lights this pixel")
+        ->needs(until_samples)
         ->delimiter(',')
         ->expected(2)
-        ->check(CLI::Range(0, 65535))
+        ->check(CLI::Range(0, kMaxPictureSide - 1))
         ->type_name("X,Y");
     command
-        .add_option("--screenshot", options.screenshot, "With --frames: write the window to this PNG file")
-        ->needs(frames)
+        .add_option("--screenshot", options.screenshot,
+                    "With --until-samples: write the window to this PNG file")
+        ->needs(until_samples)
         ->type_name("FILE");
     command
         .add_flag("--measure", options.measures,
                   "Open no window, but move the camera about and say how soon pictures come")
         ->excludes(layer)
         ->excludes(vpls)
-        ->excludes(frames);
+        ->excludes(until_samples);
 }
 
 }  // namespace

@@ -39,10 +39,10 @@ void refuse_twins(const std::vector<Item>& items, const char* setting, Name&& na
 }
 
 void check_crop(const Crop& crop, int width, int height) {
-    if (crop.x + crop.width > width || crop.y + crop.height > height) {
+    if (crop.x < 0 || crop.y < 0 || crop.x > width - crop.width || crop.y > height - crop.height) {
         throw Error(ErrorKind::invalid_argument,
-                    "the crop " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
-                        std::to_string(crop.width) + "," + std::to_string(crop.height) +
+                    "the crop " + std::to_string(crop.width) + "x" + std::to_string(crop.height) + "+" +
+                        std::to_string(crop.x) + "+" + std::to_string(crop.y) +
                         " reaches beyond the picture of " + std::to_string(width) + "x" +
                         std::to_string(height) + " pixels",
                     "crop");
@@ -119,24 +119,6 @@ std::vector<uint> parse_vpl_counts(const std::string& list) {
     refuse_twins(counts, "vpls", [](uint count) { return std::to_string(count); });
     std::sort(counts.begin(), counts.end());
     return counts;
-}
-
-Crop parse_crop(const std::string& text) {
-    std::vector<int> numbers;
-    for (const std::string& item : split(text, ',')) {
-        const std::optional<int> number = whole_number<int>(item);
-        if (!number || *number < 0 || static_cast<uint>(*number) > kMaxSamplesPerPixel) {
-            numbers.clear();
-            break;
-        }
-        numbers.push_back(*number);
-    }
-    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) {
-        throw Error(ErrorKind::invalid_argument,
-                    "'" + text + "' is not a part of a picture; give X,Y,W,H in pixels, as in 40,30,80,60",
-                    "crop");
-    }
-    return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
 void check_settings(const CompareSettings& settings) {

@@ -74,8 +74,6 @@ std::vector<Method> parse_methods(const std::string& list);
 /// Parses comma-separated counts of 1 to 50 million, and sorts them; none may occur twice. Throws
 /// Error(ErrorKind::invalid_argument).
 std::vector<uint> parse_vpl_counts(const std::string& list);
-/// Parses "X,Y,W,H". Throws Error(ErrorKind::invalid_argument).
-Crop parse_crop(const std::string& text);
 
 /// Checks that the settings are consistent. Throws Error(ErrorKind::invalid_argument) for the first that is
 /// not.

@@ -120,7 +120,8 @@ TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
     expect_usage_error("--clamp-radius 0.1 --clamp-fraction 0.1", "--clamp-fraction");
     expect_usage_error("--clamp-radius -1", "--clamp-radius");
     expect_usage_error("--crop 1,2,3", "--crop");
-    expect_usage_error("--crop 300,200,100,100", "--crop");
+    expect_usage_error("--crop 100x100+300+200", "--crop");
+    expect_usage_error("--crop 100x100+4294967290+200", "--crop");
     expect_usage_error("--reference-vpls 100", "200000");
     expect_usage_error("--reference-vpls 400000001", "no whole number from 1 to 400000000");
     expect_usage_error("--reference-sampler metropolis", "--reference-vpls");

@@ -60,13 +60,6 @@ TEST(CompareLists, WrongCountsAreNamed) {
     EXPECT_TRUE(mentions(error_of([] { parse_vpl_counts("10,20,10"); }), "twice"));
 }
 
-TEST(CompareLists, CropsAreFourNumbers) {
-    EXPECT_EQ(parse_crop("1,2,30,40"), (Crop{1, 2, 30, 40}));
-    for (const char* text : {"", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,5,5", "0,0,0,5", "0,0,5,0"}) {
-        EXPECT_EQ(error_of([&] { parse_crop(text); }).kind(), ErrorKind::invalid_argument) << text;
-    }
-}
-
 /// The setting and the message of the Error that check_settings() throws after a change of the defaults.
 template <typename Change>
 std::string complaint(Change&& change) {
@@ -103,7 +96,7 @@ TEST(CompareSettingsCheck, WhatDoesNotGoTogetherIsRefused) {
                     "loses light"));
     EXPECT_TRUE(has(complaint([](auto& s) { s.reference_vpls = 200'000, s.reference_files = {"a.exr"}; }),
                     "either read from a file or made of VPLs"));
-    EXPECT_TRUE(has(complaint([](auto& s) { s.crops = {{300, 0, 21, 10}}; }), "crop: the crop 300,0,21,10"));
+    EXPECT_TRUE(has(complaint([](auto& s) { s.crops = {{300, 0, 21, 10}}; }), "crop: the crop 21x10+300+0"));
 }
 
 }  // namespace

@@ -46,11 +46,12 @@ TEST(ViewCommand, PixelsAndScreenshotsAreCheckedBeforeAWindowOpens) {
         EXPECT_EQ(result.exit_code, 2) << options;
         return result.errors;
     };
-    EXPECT_NE(errors_of("--screenshot window.png").find("--screenshot requires --frames"), std::string::npos);
-    EXPECT_NE(errors_of("--inspect 1,2").find("--inspect requires --frames"), std::string::npos);
+    EXPECT_NE(errors_of("--screenshot window.png").find("--screenshot requires --until-samples"),
+              std::string::npos);
+    EXPECT_NE(errors_of("--inspect 1,2").find("--inspect requires --until-samples"), std::string::npos);
     EXPECT_NE(errors_of("--measure --show-vpls").find("--show-vpls excludes --measure"), std::string::npos);
     for (const char* const pixel : {"1", "1,2,3", "1,-2", "1,2x", "1,", "x,y", "1.5,2"}) {
-        EXPECT_NE(errors_of(std::string("--frames 1 --inspect=") + pixel).find("--inspect"),
+        EXPECT_NE(errors_of(std::string("--until-samples 1 --inspect=") + pixel).find("--inspect"),
                   std::string::npos)
             << pixel;
     }
@@ -103,7 +104,7 @@ class ViewWindow : public testing::Test {
 /// The panel stands on the left, and the lit floor in the middle of what is right of it.
 TEST_F(ViewWindow, ShowsThePicture) {
     const ProgramResult result = view_floor(
-        "--size 256x256 --vpls 100 --spp 2 --frames 2 --show-vpls --inspect 128,128 --screenshot " +
+        "--size 256x256 --vpls 100 --spp 2 --until-samples 2 --show-vpls --inspect 128,128 --screenshot " +
         quoted(screenshot()));
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const Image window = read_image(screenshot());
@@ -117,7 +118,8 @@ TEST_F(ViewWindow, ShowsThePicture) {
 /// From above, with x upwards, what is farther up in the picture has a greater x, and so more red.
 TEST_F(ViewWindow, TakesWhatPointsUpwards) {
     const ProgramResult result = view_floor(
-        "--size 256x256 --vpls 50 --spp 1 --origin 0,0,3 --target 0,0,0 --up 1,0,0 --layer P --frames 1 "
+        "--size 256x256 --vpls 50 --spp 1 --origin 0,0,3 --target 0,0,0 --up 1,0,0 --layer P --until-samples "
+        "1 "
         "--screenshot " +
         quoted(screenshot()));
     ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -129,15 +131,16 @@ TEST_F(ViewWindow, TakesWhatPointsUpwards) {
 
 /// There may be fewer samples than frames that are asked for, and scenes that no frame follows.
 TEST_F(ViewWindow, EndsWhenNothingMoreComes) {
-    EXPECT_EQ(view_floor("--size 64x64 --vpls 50 --spp 1 --frames 9", "timeout 60").exit_code, 0);
-    expect_error(view_floor("--size 64x64 --origin 0,0,1 --target 0,0,1 --frames 1", "timeout 60"), 2,
+    EXPECT_EQ(view_floor("--size 64x64 --vpls 50 --spp 1 --until-samples 9", "timeout 60").exit_code, 0);
+    expect_error(view_floor("--size 64x64 --origin 0,0,1 --target 0,0,1 --until-samples 1", "timeout 60"), 2,
                  "camera");
 }
 
 TEST_F(ViewWindow, PixelsOutsideOfThePictureAreErrors) {
     for (const char* const pixel : {"64,0", "0,48"}) {
-        expect_error(view_floor(std::string("--size 64x48 --frames 1 --inspect ") + pixel, "timeout 60"), 2,
-                     std::string("no pixel ") + pixel + " to inspect in a picture of 64x48");
+        expect_error(
+            view_floor(std::string("--size 64x48 --until-samples 1 --inspect ") + pixel, "timeout 60"), 2,
+            std::string("no pixel ") + pixel + " to inspect in a picture of 64x48");
     }
 }
 
