@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/samplers/close_surface.h"
 
+#include <utility>
+
 #include "host/base/message.h"
 #include "host/samplers/sparse_walks.h"
 
@@ -19,26 +21,24 @@ CloseSurface::CloseSurface(SamplerStages& stages, const SamplingTask& task, cons
     stages.triangle_classifier.classify(scene.vertices, scene.triangles, scene.materials, region_.range,
                                         region_.whole_triangles, all, flags, areas);
     const std::size_t close_count = stages.compaction.list_set(flags, all, close_ids);
+    std::size_t count = close_count;
     if (selection.only_lit) {
         stages.light_visibility().run(scene, close_ids, close_count, task.seed, region_.triangles);
-        triangle_count_ = stages.compaction.list_set(region_.triangles, all, close_ids);
+        count = stages.compaction.list_set(region_.triangles, all, close_ids);
     } else {
         std::swap(region_.triangles, flags);
-        triangle_count_ = close_count;
     }
 
-    Buffer<Vec3> centroids(stages.device, triangle_count_);
-    Buffer<uint> order(stages.device, triangle_count_);
-    ids_ = Buffer<uint>(stages.device, triangle_count_);
-    stages.triangle_classifier.centroids(scene.vertices, scene.triangles, close_ids, triangle_count_,
-                                         centroids);
-    stages.morton_sort.order(centroids, triangle_count_, order);
-    stages.compaction.gather(close_ids, order, triangle_count_, ids_);
-    stages.vpl_placement.set_surface(areas, ids_, triangle_count_,
-                                     area_units_per_square_metre(scene.total_area));
-    area_ = stages.vpl_placement.total_area();
+    Buffer<Vec3> centroids(stages.device, count);
+    Buffer<uint> order(stages.device, count);
+    Buffer<uint> ids(stages.device, count);
+    stages.triangle_classifier.centroids(scene.vertices, scene.triangles, close_ids, count, centroids);
+    stages.morton_sort.order(centroids, count, order);
+    stages.compaction.gather(close_ids, order, count, ids);
+    surface_ = stages.vpl_placement.surface_of(areas, std::move(ids), count,
+                                               area_units_per_square_metre(scene.total_area));
     say_debug(std::to_string(close_count) + " of " + std::to_string(all) +
-              " triangles are in the close range, " + std::to_string(triangle_count_) + " are selected");
+              " triangles are in the close range, " + std::to_string(count) + " are selected");
 }
 
 std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
@@ -47,9 +47,9 @@ std::vector<Vpl> CloseSurface::place(std::size_t point_count, uint seed) {
     Buffer<SurfaceSample> samples(stages_.device, point_count);
     Buffer<Vpl> slots(stages_.device, slot_count);
     Buffer<uint> flags(stages_.device, slot_count);
-    const auto area_per_point = static_cast<float>(area_ / static_cast<double>(point_count));
-    stages_.vpl_placement.place(scene.vertices, scene.triangles, ids_, region_.range, region_.whole_triangles,
-                                point_count, seed, samples);
+    const auto area_per_point = static_cast<float>(surface_.area / static_cast<double>(point_count));
+    stages_.vpl_placement.place(surface_, scene.vertices, scene.triangles, region_.range,
+                                region_.whole_triangles, point_count, seed, samples);
     stages_.patch_vpls.run(scene, samples, point_count, region_, area_per_point, slots, flags);
     return stages_.compaction.download_set(slots, flags, slot_count);
 }

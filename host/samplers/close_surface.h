@@ -20,10 +20,10 @@ class CloseSurface {
     CloseSurface(SamplerStages& stages, const SamplingTask& task, const CloseSelection& selection);
 
     [[nodiscard]] const CloseRegion& region() const { return region_; }
-    [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
-    [[nodiscard]] double area() const { return area_; }  ///< area on which points are placed, m²
+    /// The area on which points are placed, m².
+    [[nodiscard]] double area() const { return surface_.area; }
     /// Whether no triangle was selected, or the selected triangles have no area.
-    [[nodiscard]] bool empty() const { return triangle_count_ == 0 || !(area_ > 0.0); }
+    [[nodiscard]] bool empty() const { return surface_.empty(); }
 
     /// Places `point_count` points, one in each of as many equal parts of the surface, and returns VPLs
     /// without light: their power is the albedo times the area (m²) that a point stands for. Each side of a
@@ -35,9 +35,7 @@ class CloseSurface {
     SamplerStages& stages_;
     const SamplingTask& task_;
     CloseRegion region_;
-    Buffer<uint> ids_;  ///< the selected triangles along the Morton curve
-    std::size_t triangle_count_ = 0;
-    double area_ = 0.0;  ///< m²
+    PlacementSurface surface_;  ///< the selected triangles along the Morton curve
 };
 
 }  // namespace nearlight::core

@@ -75,14 +75,15 @@ void check_points_on_parts(Device& device, CheckResult& result) {
             sum += classes.areas[i];
         }
     }
-    const Buffer<uint> id_buffer(device, ids);
     VplPlacement placement(device);
-    placement.set_surface(Buffer<float>(device, classes.areas), id_buffer, ids.size(),
-                          area_units_per_square_metre(sum));
+    const PlacementSurface surface =
+        placement.surface_of(Buffer<float>(device, classes.areas), Buffer<uint>(device, ids), ids.size(),
+                             area_units_per_square_metre(sum));
     constexpr std::size_t kPoints = 10'000;
     Buffer<SurfaceSample> samples(device, kPoints);
-    placement.place(Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
-                    id_buffer, Buffer<CloseRange>(device, std::span(&region, 1)), false, kPoints, 7, samples);
+    placement.place(surface, Buffer<Vertex>(device, scene.vertices),
+                    Buffer<Triangle>(device, scene.triangles),
+                    Buffer<CloseRange>(device, std::span(&region, 1)), false, kPoints, 7, samples);
     for (const SurfaceSample& point : samples.download()) {
         const bool known = point.triangle < kPlacementTriangles && classes.flags[point.triangle] != 0;
         result.expect(known && in_frustum(region, point.position, static_cast<float>(kSlack)) &&
@@ -199,19 +200,17 @@ void check_placement(Device& device, CheckResult& result) {
     for (std::size_t i = 0; i < ids.size(); ++i) {
         place_of[ids[i]] = i;
     }
-    const Buffer<uint> id_buffer(device, ids);
     const CloseRange everything{};
     const Buffer<CloseRange> range(device, std::span(&everything, 1));
     VplPlacement placement(device);
-    placement.set_surface(Buffer<float>(device, areas), id_buffer, ids.size(),
-                          area_units_per_square_metre(sum));
-    result.expect(std::abs(placement.total_area() - sum) < 1e-9 * sum);
+    const PlacementSurface surface =
+        placement.surface_of(Buffer<float>(device, areas), Buffer<uint>(device, ids), ids.size(),
+                             area_units_per_square_metre(sum));
+    result.expect(std::abs(surface.area - sum) < 1e-9 * sum);
     for (const std::size_t count : {std::size_t{1}, std::size_t{1000}, std::size_t{30'000}}) {
         Buffer<SurfaceSample> samples(device, count);
-        const std::size_t placed =
-            placement.place(Buffer<Vertex>(device, scene.vertices), Buffer<Triangle>(device, scene.triangles),
-                            id_buffer, range, true, count, 7, samples);
-        result.expect(placed == count);
+        placement.place(surface, Buffer<Vertex>(device, scene.vertices),
+                        Buffer<Triangle>(device, scene.triangles), range, true, count, 7, samples);
         const std::vector<SurfaceSample> found = samples.download();
         const double part = sum / static_cast<double>(count);
         for (std::size_t k = 0; k < count; ++k) {

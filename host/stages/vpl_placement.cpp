@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/stages/joint_programs.h"
 #include "host/stages/runs.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 
@@ -22,27 +24,27 @@ VplPlacement::VplPlacement(Device& device)
       place_(program_, "place_samples"),
       scan_(device) {}
 
-void VplPlacement::set_surface(const Buffer<float>& areas, const Buffer<uint>& ids, std::size_t count,
-                               float units_per_square_metre) {
-    triangle_count_ = count;
-    ensure_room(area_sums_, *device_, count);
-    areas_.launch_items(count, areas, ids, area_sums_, units_per_square_metre,
+PlacementSurface VplPlacement::surface_of(const Buffer<float>& areas, Buffer<uint> ids, std::size_t count,
+                                          float units_per_square_metre) {
+    PlacementSurface surface{
+        .ids = std::move(ids), .area_sums = Buffer<std::uint64_t>(*device_, count), .triangle_count = count};
+    areas_.launch_items(count, areas, surface.ids, surface.area_sums, units_per_square_metre,
                         to_kernel_count(count, "triangles"));
-    scan_.inclusive(area_sums_, area_sums_, count);
-    total_area_ = static_cast<double>(scan_.total().download_one(0)) / units_per_square_metre;
+    scan_.inclusive(surface.area_sums, surface.area_sums, count);
+    surface.area = static_cast<double>(scan_.total().download_one(0)) / units_per_square_metre;
+    return surface;
 }
 
-std::size_t VplPlacement::place(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
-                                const Buffer<uint>& ids, const Buffer<CloseRange>& range,
-                                bool whole_triangles, std::size_t sample_count, uint seed,
-                                Buffer<SurfaceSample>& samples) {
-    if (sample_count == 0 || !(total_area_ > 0.0)) {
-        return 0;
+void VplPlacement::place(const PlacementSurface& surface, const Buffer<Vertex>& vertices,
+                         const Buffer<Triangle>& triangles, const Buffer<CloseRange>& range,
+                         bool whole_triangles, std::size_t sample_count, uint seed,
+                         Buffer<SurfaceSample>& samples) {
+    if (surface.empty()) {
+        throw Error(ErrorKind::invalid_argument, "there is no surface to place points on");
     }
-    place_.launch_items(sample_count, vertices, triangles, ids, area_sums_, range, whole_triangles ? 1u : 0u,
-                        samples, static_cast<uint>(triangle_count_), to_kernel_count(sample_count, "samples"),
-                        seed);
-    return sample_count;
+    place_.launch_items(sample_count, vertices, triangles, surface.ids, surface.area_sums, range,
+                        whole_triangles ? 1u : 0u, samples, static_cast<uint>(surface.triangle_count),
+                        to_kernel_count(sample_count, "samples"), seed);
 }
 
 }  // namespace nearlight::core

@@ -16,26 +16,32 @@ namespace nearlight::core {
 /// any selection fits. The area of a triangle is then rounded by at most total_area · 2^-62.
 float area_units_per_square_metre(double total_area);
 
+/// Triangles to place points on.
+struct PlacementSurface {
+    Buffer<uint> ids;                 ///< of the triangles, in Morton order
+    Buffer<std::uint64_t> area_sums;  ///< for each of them, the area up to and with it, in fixed point
+    std::size_t triangle_count = 0;
+    double area = 0.0;  ///< of all of them, m²; each of K points stands for area / K
+
+    /// Whether there is nothing to place points on.
+    [[nodiscard]] bool empty() const { return !(area > 0.0); }
+};
+
 class VplPlacement {
   public:
     explicit VplPlacement(Device& device);
 
-    /// Sets the triangles to place points on: the first `count` elements of `ids`, in Morton order, which
-    /// index `areas` (m²). The scale comes from area_units_per_square_metre(). Does not keep `ids` or
-    /// `areas`; waits for the device.
-    void set_surface(const Buffer<float>& areas, const Buffer<uint>& ids, std::size_t count,
-                     float units_per_square_metre);
-    /// The area in m² of the triangles that set_surface() took. Each of K points stands for total_area() / K
-    /// of it.
-    [[nodiscard]] double total_area() const { return total_area_; }
+    /// The surface of the first `count` elements of `ids`, in Morton order, which index `areas` (m²). The
+    /// scale comes from area_units_per_square_metre(). Waits for the device.
+    PlacementSurface surface_of(const Buffer<float>& areas, Buffer<uint> ids, std::size_t count,
+                                float units_per_square_metre);
 
-    /// Places `sample_count` points on the surface, one in each of as many equal parts of its area. `ids`
-    /// must be those of set_surface(), and `range` (one element) and `whole_triangles` must be those that
-    /// TriangleClassifier::classify() found the areas with. Returns the number of points: sample_count, or 0
-    /// if the surface has no area.
-    std::size_t place(const Buffer<Vertex>& vertices, const Buffer<Triangle>& triangles,
-                      const Buffer<uint>& ids, const Buffer<CloseRange>& range, bool whole_triangles,
-                      std::size_t sample_count, uint seed, Buffer<SurfaceSample>& samples);
+    /// Places `sample_count` points on a surface that is not empty, one in each of as many equal parts of its
+    /// area. `range` (one element) and `whole_triangles` must be those that TriangleClassifier::classify()
+    /// found the areas with.
+    void place(const PlacementSurface& surface, const Buffer<Vertex>& vertices,
+               const Buffer<Triangle>& triangles, const Buffer<CloseRange>& range, bool whole_triangles,
+               std::size_t sample_count, uint seed, Buffer<SurfaceSample>& samples);
 
   private:
     Device* device_;
@@ -43,9 +49,6 @@ class VplPlacement {
     Kernel areas_;
     Kernel place_;
     PrefixScan<std::uint64_t> scan_;
-    Buffer<std::uint64_t> area_sums_;
-    std::size_t triangle_count_ = 0;
-    double total_area_ = 0.0;
 };
 
 }  // namespace nearlight::core

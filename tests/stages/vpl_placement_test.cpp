@@ -47,25 +47,22 @@ class Placer {
           placement_(device),
           vertices_(device, surface.vertices),
           triangles_(device, surface.triangles),
-          ids_(device, surface.ids),
-          range_(device, std::vector<CloseRange>(1)) {
-        placement_.set_surface(Buffer<float>(device, surface.areas), ids_, surface.ids.size(), units);
-    }
+          surface_(placement_.surface_of(Buffer<float>(device, surface.areas),
+                                         Buffer<uint>(device, surface.ids), surface.ids.size(), units)),
+          range_(device, std::vector<CloseRange>(1)) {}
     std::vector<SurfaceSample> place(std::size_t count, uint seed) {
         Buffer<SurfaceSample> samples(*device_, count);
-        std::vector<SurfaceSample> result(
-            placement_.place(vertices_, triangles_, ids_, range_, true, count, seed, samples));
-        samples.download(result);
-        return result;
+        placement_.place(surface_, vertices_, triangles_, range_, true, count, seed, samples);
+        return samples.download();
     }
-    [[nodiscard]] double total_area() const { return placement_.total_area(); }
+    [[nodiscard]] double total_area() const { return surface_.area; }
 
   private:
     Device* device_;
     VplPlacement placement_;
     Buffer<Vertex> vertices_;
     Buffer<Triangle> triangles_;
-    Buffer<uint> ids_;
+    PlacementSurface surface_;
     Buffer<CloseRange> range_;
 };
 
@@ -265,10 +262,10 @@ TEST_F(VplPlacementTest, TrianglesWithoutAreaAreNeverChosen) {
 TEST_F(VplPlacementTest, NothingToPlaceAndNowhereToPlaceIt) {
     on_each_device([](Device& device) {
         EXPECT_TRUE(Placer(device, Surface({1.0f})).place(0, 1).empty());
-        EXPECT_TRUE(Placer(device, Surface({0.0f, 0.0f})).place(10, 1).empty());
+        EXPECT_THROW(Placer(device, Surface({0.0f, 0.0f})).place(10, 1), Error);
         Placer none(device, Surface(std::vector<float>{}));
-        EXPECT_TRUE(none.place(10, 1).empty());
         EXPECT_EQ(none.total_area(), 0.0);
+        EXPECT_THROW(none.place(10, 1), Error);
     });
 }
 
@@ -291,15 +288,15 @@ TEST_F(VplPlacementTest, NoSampleIsWrittenBeyondTheLast) {
     on_each_device([](Device& device) {
         const Surface surface(random_areas(10, 6));
         VplPlacement placement(device);
-        const Buffer<uint> ids(device, surface.ids);
-        placement.set_surface(Buffer<float>(device, surface.areas), ids, surface.ids.size(),
-                              area_units_per_square_metre(surface.total()));
+        const PlacementSurface on_device =
+            placement.surface_of(Buffer<float>(device, surface.areas), Buffer<uint>(device, surface.ids),
+                                 surface.ids.size(), area_units_per_square_metre(surface.total()));
         SurfaceSample guard{};
         guard.triangle = 0xabadcafe;
         for (const std::size_t count : {1u, 7u, 8u, 9u, 63u, 65u, 1025u}) {
             Buffer<SurfaceSample> samples(device, std::vector<SurfaceSample>(count + 64, guard));
-            placement.place(Buffer<Vertex>(device, surface.vertices),
-                            Buffer<Triangle>(device, surface.triangles), ids,
+            placement.place(on_device, Buffer<Vertex>(device, surface.vertices),
+                            Buffer<Triangle>(device, surface.triangles),
                             Buffer<CloseRange>(device, std::vector<CloseRange>(1)), true, count, 1, samples);
             const std::vector<SurfaceSample> result = samples.download();
             for (std::size_t i = 0; i < result.size(); ++i) {
@@ -335,13 +332,14 @@ TEST_F(VplPlacementTest, PartsOfTrianglesGetAllThePoints) {
         }
         const Buffer<Vertex> vertices(device, corners);
         const Buffer<Triangle> triangles(device, std::vector<Triangle>{{0, 1, 2, 0}});
-        const Buffer<uint> ids(device, std::vector<uint>{0});
         const Buffer<CloseRange> range(device, std::span(&region, 1));
         VplPlacement placement(device);
-        placement.set_surface(Buffer<float>(device, std::vector<float>{8.0f}), ids, 1, 1024.0f);
+        const PlacementSurface surface =
+            placement.surface_of(Buffer<float>(device, std::vector<float>{8.0f}),
+                                 Buffer<uint>(device, std::vector<uint>{0}), 1, 1024.0f);
         constexpr std::size_t kPlaced = 10'000;
         Buffer<SurfaceSample> samples(device, kPlaced);
-        ASSERT_EQ(placement.place(vertices, triangles, ids, range, false, kPlaced, 5, samples), kPlaced);
+        placement.place(surface, vertices, triangles, range, false, kPlaced, 5, samples);
         // The trapezium |x − 5| ≤ z, 1 ≤ z ≤ 3 has the area 8, of which 3 lies before z = 2.
         std::size_t near = 0;
         std::size_t left = 0;
