@@ -21,7 +21,7 @@ OUTLINED_ON_CPU CausticLanding follow_caustic(const SceneView* scene, uint walk,
     WalkAim nowhere;
     nowhere.radius = 0.0f;
     nowhere.opening_count = 0;
-    EmittedParticle particle = emit_particle(scene, &nowhere, sample_2d(walk, 0, seed),
+    EmittedParticle particle = emit_particle(scene, &nowhere, sample_2d(walk, 0, seed).x,
                                              sample_2d(walk, 1, seed), sample_2d(walk, 2, seed));
     bool is_caustic = false;
     for (uint bounce = 0; bounce < MAX_CAUSTIC_BOUNCES && !particle.from_delta && !is_black(particle.flux);

@@ -49,7 +49,7 @@ OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const ClosePlaces* clos
                                  global Vpl* vpls) {
     const uint seed = params->seed;
     uint count = 0;
-    EmittedParticle particle = emit_particle(scene, aim, sample_2d(walk, 0, seed), sample_2d(walk, 1, seed),
+    EmittedParticle particle = emit_particle(scene, aim, sample_2d(walk, 0, seed).x, sample_2d(walk, 1, seed),
                                              sample_2d(walk, 2, seed));
     float launched = (float)params->all_walks;
     for (uint bounce = 0; bounce < params->bounce_count; ++bounce) {

@@ -52,8 +52,8 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
     const float2 choice = numbers[index];
     const uint last = search_cdf(depth_cdf, bounce_count, choice.x);
     const float probability = step_of_cdf(depth_cdf, last);
-    EmittedParticle particle = emit_particle(&scene, &aim, (float2)(choice.y, 0.0f), numbers[count + index],
-                                             numbers[2 * count + index]);
+    EmittedParticle particle =
+        emit_particle(&scene, &aim, choice.y, numbers[count + index], numbers[2 * count + index]);
     Landing at;
     float3 reflected = (float3)(0.0f);
     for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {

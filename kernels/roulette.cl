@@ -11,7 +11,7 @@
 // interface.
 
 #include "lib/bundle.cl"
-#include "lib/gather.cl"
+#include "lib/vpl_terms.cl"
 
 // The minimum probability of a VPL that could bring light. It only keeps 1/p finite.
 #define MIN_PROBABILITY 1e-6f
@@ -62,12 +62,15 @@ kernel void roulette_bounds(const global Vpl* vpls, uint vpl_count, uint strata,
     }
 }
 
+/// So many bounds are summed by themselves, so that a sum of many keeps its digits.
+#define BLOCK_OF_BOUNDS 256
+
 /// The bound below which a VPL is left to chance: `threshold` times the mean of all bounds.
 static inline float roulette_limit(const global float* bounds, uint count, float threshold) {
     float total = 0.0f;
-    for (uint chunk = 0; chunk < count; chunk += GATHER_CHUNK) {
+    for (uint block = 0; block < count; block += BLOCK_OF_BOUNDS) {
         float sum = 0.0f;
-        for (uint i = chunk; i < min(chunk + GATHER_CHUNK, count); ++i) {
+        for (uint i = block; i < min(block + BLOCK_OF_BOUNDS, count); ++i) {
             sum += bounds[i];
         }
         total += sum;

@@ -17,8 +17,8 @@
 // `importance_thresholds` says before the gather which importons are not worth a ray, because few make up
 // nearly all of the error that a VPL would leave.
 
-#include "lib/gather.cl"
 #include "lib/math.cl"
+#include "lib/vpl_terms.cl"
 
 static inline float3 arrived_importance(const global ImportancePacket* importance, uint vpl) {
     const global ImportancePacket* packet = importance + vpl / NEARLIGHT_PACKET_SIZE;
@@ -52,6 +52,12 @@ kernel void vpl_group_contribution(const global Vpl* restrict vpls, uint vpl_cou
     const global ImportancePacket* of_group = group_importance + (size_t)group * packet_count;
     const float3 brought = arrived_importance(of_group, index) * load3(vpls[index].power);
     vstore3(brought * (scale * M_1_PI_F), slot, contribution);
+}
+
+/// An importon as the gather reads it. The struct Importon in shared/types.h has the members of a Vpl in the
+/// same places.
+static inline const global Vpl* as_source(const global Importon* importon) {
+    return (const global Vpl*)importon;
 }
 
 /// Sets thresholds[i] to `part` times the mean, over the importons, of the squares of the importance that

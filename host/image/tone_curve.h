@@ -18,8 +18,8 @@ inline constexpr std::array kToneCurves{
 
 std::string to_string(ToneCurve curve);
 
-/// The linear colour, not yet encoded, that a screen should show; in [0, 1] but for `linear`. What is
-/// negative or NaN counts as 0.
+/// The linear colour, not yet encoded, that a screen should show. `linear` returns the colour as it is; the
+/// others are in [0, 1], and take what is negative or NaN for 0.
 Vec3 apply_tone_curve(ToneCurve curve, Vec3 color);
 
 }  // namespace nearlight::core

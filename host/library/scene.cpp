@@ -28,7 +28,7 @@ core::LoadOptions core_options(const LoadOptions& options, std::optional<core::S
     overrides.origin = point_of(options.origin);
     overrides.target = point_of(options.target);
     overrides.up = point_of(options.up);
-    overrides.fov_degrees = options.field_of_view;
+    overrides.fov_degrees = options.fov_x_degrees;
     overrides.environment = options.environment;
     overrides.environment_rotation = options.environment_rotation;
     overrides.environment_scale = options.environment_scale;

@@ -18,6 +18,11 @@ KeepDeposits deposits_to_keep(Policy policy) {
     return policy == Policy::paper ? KeepDeposits::outside : KeepDeposits::indirect_inside;
 }
 
+uint close_vpl_count(float close_fraction, uint vpl_count) {
+    const auto count = static_cast<uint>(std::llround(double{close_fraction} * vpl_count));
+    return std::min(count, vpl_count);
+}
+
 float choose_close_fraction(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     // Patches replace the deposits of depth 1 in the close range, and walks must supply the others. Tracing
     // the same walks twice, once keeping all deposits and once keeping what the policy keeps, tells the two

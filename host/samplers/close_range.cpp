@@ -67,8 +67,7 @@ VplSet sample_with_direct_patches(SamplerStages& stages, const SamplingTask& tas
     VplSet set;
     set.close_fraction =
         task.close_fraction ? *task.close_fraction : choose_close_fraction(stages, task, surface.region());
-    const uint close_budget =
-        static_cast<uint>(std::lround(set.close_fraction * static_cast<float>(task.vpl_count)));
+    const uint close_budget = close_vpl_count(set.close_fraction, task.vpl_count);
     if (close_budget == 0) {
         return sample_instant_radiosity(stages, task);
     }

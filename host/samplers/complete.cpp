@@ -45,6 +45,7 @@
 #include "host/base/message.h"
 #include "host/base/random.h"
 #include "host/samplers/candidates.h"
+#include "host/samplers/close_fraction.h"
 #include "host/samplers/incident_light.h"
 #include "host/samplers/resampling.h"
 #include "host/samplers/sparse_walks.h"
@@ -198,8 +199,7 @@ Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const V
         return choose_balanced(stages, task, lit, rows, weights, task.vpl_count,
                                Pcg32(task.seed, kChoiceStream));
     }
-    const auto close_count =
-        static_cast<std::size_t>(std::lround(*task.close_fraction * static_cast<float>(task.vpl_count)));
+    const std::size_t close_count = close_vpl_count(*task.close_fraction, task.vpl_count);
     std::vector<float> close(weights.size());
     std::vector<float> distant(weights.size());
     for (std::size_t i = 0; i < weights.size(); ++i) {

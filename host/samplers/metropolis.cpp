@@ -43,7 +43,7 @@ constexpr double kMetropolisBlindShare = 0.1;
 constexpr uint kPilotSeeds = 2048;
 constexpr uint kMinSeeds = 2048;
 constexpr uint kMaxSeeds = 1u << 21u;
-constexpr uint kMaxPairs = 1u << 22u;  ///< pairs of numbers in one buffer, 32 MiB
+constexpr uint kMaxPairs = 1u << 23u;  ///< pairs of numbers in one buffer, 64 MiB
 constexpr uint kMetropolisPilotSeed = 0x3e7f0u;
 constexpr std::uint64_t kStarts = 0x57a7;
 constexpr std::uint64_t kThinning = 0x7415;
@@ -55,7 +55,7 @@ struct Seeds {
 };
 
 uint max_in_step(uint bounce_count) {
-    return std::max(kMaxPairs / (bounce_count + 2), 64u);
+    return std::max(kMaxPairs / walk_pair_count(bounce_count), 64u);
 }
 
 Seeds make_seeds(SamplerStages& stages, const PathSpace& space, uint count) {

@@ -205,9 +205,12 @@ bool is_area_light(const Emitter& emitter) {
            emitter.type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
+bool is_distant(const Emitter& emitter) {
+    return emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter.type == NEARLIGHT_EMITTER_SUN;
+}
+
 bool is_delta_light(const Emitter& emitter) {
-    return !is_area_light(emitter) && emitter.type != NEARLIGHT_EMITTER_ENVIRONMENT &&
-           emitter.type != NEARLIGHT_EMITTER_SUN;
+    return !is_area_light(emitter) && !is_distant(emitter);
 }
 
 EmitterTable build_emitter_table(const Scene& scene) {

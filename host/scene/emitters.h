@@ -10,6 +10,8 @@ namespace nearlight::core {
 
 /// Whether the light is a triangle, sphere or cylinder.
 bool is_area_light(const Emitter& emitter);
+/// Whether the light is the environment's map or its sun.
+bool is_distant(const Emitter& emitter);
 /// Whether the light shines from a single point or in a single direction, so that no path can hit it.
 bool is_delta_light(const Emitter& emitter);
 

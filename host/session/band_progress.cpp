@@ -41,14 +41,13 @@ double work_above(const std::vector<double>& strips, uint height, double row) {
 }  // namespace
 
 std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
-                                   const SceneCamera& camera, const CameraBatch& like, uint seed) {
+                                   const SceneCamera& camera, const CameraBatch& batch, uint seed) {
     constexpr int kHeight = kStripCount * NEARLIGHT_TILE_SIZE;
     const int width =
         std::clamp(static_cast<int>(std::int64_t{kHeight} * camera.width / std::max(camera.height, 1)), 8,
                    kMaxSmallWidth);
     const SmallView small =
-        look_at_few_pixels(device, camera_pass, scene, camera, width, kHeight,
-                           {.branch_count = like.branch_count, .min_weight = like.min_weight}, seed);
+        look_at_few_pixels(device, camera_pass, scene, camera, width, kHeight, batch, seed);
     const std::vector<ReceiverPacket> found = small.receivers.download();
     std::vector<double> work(kStripCount, kRayWork * width * NEARLIGHT_TILE_SIZE);
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -11,11 +11,11 @@
 namespace nearlight::core {
 
 /// About how much work the parts of a picture are, in strips of equal height from its top to its bottom, in
-/// any unit: the sky costs nothing, and surfaces that also reflect like mirrors cost twice as much as others.
-/// Counts the receivers of a small picture, with the branches and the smallest weight of `like`, which takes
+/// any unit: a pixel of sky costs a twentieth of a receiver, and surfaces that also reflect like mirrors cost
+/// twice as much as others. Counts the receivers of a small picture of such a batch, which takes
 /// milliseconds.
 std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
-                                   const SceneCamera& camera, const CameraBatch& like, uint seed);
+                                   const SceneCamera& camera, const CameraBatch& batch, uint seed);
 
 /// The part of a picture's work that is done when that part of its bands is, both from 0 to 1. `height` is
 /// that of the whole picture in pixels, and `strips` are its work. Bands are finished about in order.

@@ -104,6 +104,7 @@ Passes begin_passes(Session& session, const RenderSettings& settings, const VplM
         resume(session, settings, std::move(*start.checkpoint), passes, report);
     }
     if (passes.first > 0 && !passes.choice) {
+        // Pass 0 is taken to have all samples of a pass, as it has without a time or --pass-spp.
         RenderReport of_pass_0;
         passes.choice = choice_of(prepare(session, settings, vpls, of_pass_0), settings);
         report.seconds.generate += of_pass_0.seconds.generate;

@@ -6,6 +6,19 @@
 #include "host/base/receivers.h"
 
 namespace nearlight::core {
+namespace {
+
+/// How many receivers of the packet keep what their rays find of the sky. Those whose normal a map tilts do
+/// not (lib/shared_light.cl).
+std::size_t looking_count(const ReceiverPacket& packet) {
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+        count += is_zero(receiver_at(packet, lane).normal) || packet.mesh_normal[lane] != 0 ? 0 : 1;
+    }
+    return count;
+}
+
+}  // namespace
 
 float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, const PilotView& view,
                uint seed) {
@@ -21,11 +34,11 @@ float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, c
     paths.run_sharing({scene, view.receivers, view.packet_count, settings}, direct, indirect, found);
     const std::vector<SharedLight> lights = found.sky.download();
     const auto met = std::ranges::count_if(lights, [](const SharedLight& light) { return light.weight > 0; });
-    std::size_t present = 0;
+    std::size_t looking = 0;
     for (const ReceiverPacket& packet : view.receivers.download()) {
-        present += present_count(packet);
+        looking += looking_count(packet);
     }
-    return static_cast<float>(met) / static_cast<float>(std::max<std::size_t>(present, 1));
+    return static_cast<float>(met) / static_cast<float>(std::max<std::size_t>(looking, 1));
 }
 
 }  // namespace nearlight::core

@@ -11,8 +11,9 @@ namespace nearlight::core {
 /// of noise (bench/log/sharing.md).
 inline constexpr float kMaxSharedSkyPart = 1.0f / 16;
 
-/// The part of the cosine-distributed rays of the view's receivers that meet the sky, 0 without a sky. The
-/// view must be on the device of `paths`.
+/// The part of the cosine-distributed rays of the view's receivers that meet the sky, 0 without a sky.
+/// Receivers whose normal a map tilts do not count, because they share nothing. The view must be on the
+/// device of `paths`.
 float sky_part(Device& device, ReceiverPaths& paths, const DeviceScene& scene, const PilotView& view,
                uint seed);
 

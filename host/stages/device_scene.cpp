@@ -120,9 +120,7 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
             .tree_end = emitters.tree_end,
             .has_maps = std::ranges::any_of(scene.materials, is_map),
             .veils = veils_of(scene),
-            .has_sky = std::ranges::any_of(emitters.emitters, [](const Emitter& emitter) {
-                return emitter.type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter.type == NEARLIGHT_EMITTER_SUN;
-            })};
+            .has_sky = std::ranges::any_of(emitters.emitters, is_distant)};
 }
 
 /// Uploads everything but the tree.

@@ -199,8 +199,10 @@ bool Gatherer::gather_bundles(Kernel& kernel, const GatherInput<Source>& input, 
 /// bundles as the selection makes lists for. Returns false as soon as `work` does.
 template <typename Source, typename Work>
 bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, const Work& work) {
-    if (config_.kernel == GatherKernel::packets && !input.tree.is_wide()) {
-        throw Error(ErrorKind::failure, "gather_packets needs a wide tree: upload the tree for that kernel");
+    const bool has_tree =
+        config_.kernel == GatherKernel::packets ? input.tree.is_wide() : input.tree.nodes.count() > 0;
+    if (!has_tree) {
+        throw Error(ErrorKind::failure, "this gather needs another tree: upload the tree for its kernel");
     }
     if ((input.selection != nullptr || input.strata != nullptr) && input.group_size != 0) {
         throw Error(ErrorKind::invalid_argument,
@@ -223,6 +225,9 @@ bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, co
 template <typename Source>
 bool Gatherer::gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                       const GatherProgress& progress) {
+    if (sums.groups.count() < input.group_count() * input.packet_count) {
+        throw Error(ErrorKind::invalid_argument, "the sums of a gather were allocated for fewer groups");
+    }
     Course course{progress, std::uint64_t{input.packet_count} * input.asked_count() * NEARLIGHT_PACKET_SIZE,
                   launch_pairs_};
     const bool whole = for_each_run(

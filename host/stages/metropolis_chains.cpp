@@ -10,9 +10,13 @@
 
 namespace nearlight::core {
 
+uint walk_pair_count(uint bounce_count) {
+    return NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce_count;
+}
+
 PathStates::PathStates(Device& device, std::size_t state_count, uint bounce_count)
     : count(static_cast<uint>(state_count)),
-      pair_count(NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce_count),
+      pair_count(walk_pair_count(bounce_count)),
       numbers(device, state_count * pair_count * 2),
       vpls(device, state_count),
       targets(device, state_count) {}

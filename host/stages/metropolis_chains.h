@@ -12,12 +12,15 @@
 
 namespace nearlight::core {
 
+/// How many pairs of numbers lead a walk of so many bounces.
+uint walk_pair_count(uint bounce_count);
+
 /// States of chains or their seeds: points of the unit cube, and the VPLs that they stand for.
 struct PathStates {
     PathStates(Device& device, std::size_t state_count, uint bounce_count);
 
     uint count;
-    uint pair_count;        ///< pairs of numbers per state
+    uint pair_count;        ///< of each state, walk_pair_count()
     Buffer<float> numbers;  ///< in [0, 1), laid out as kernels/metropolis_chains.cl says
     Buffer<Vpl> vpls;       ///< the power of each VPL by itself is an estimate of all light
     Buffer<float> targets;  ///< the density that chains follow, not normalised

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casts rays on the device, to compare its traversal with others. The kernels are in ray_caster.cl.
+// Casts rays that the host chose, for openings, for what lights a point, and to compare the traversal with
+// others. The kernels are in ray_caster.cl.
 #pragma once
 
 #include <span>

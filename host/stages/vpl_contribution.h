@@ -18,7 +18,8 @@ struct GroupContribution {
     /// The R, G and B that each VPL brings to each part: 3 · groups numbers per VPL. The root of the sum of
     /// their squares is the VPL's error, apart from differences within a group.
     std::vector<float> rows;
-    /// For each VPL, what unoccluded_errors() would find with the same importons.
+    /// For each VPL, what unoccluded_errors() would find with the same importons, up to a factor that all
+    /// VPLs share.
     std::vector<float> unoccluded;
 };
 

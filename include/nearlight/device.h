@@ -30,8 +30,9 @@ struct DeviceInfo {
 
 /// All devices of all drivers, unusable ones included; empty if there are none. Does not throw if a driver
 /// fails. A process's first call of this function or of Devices::choose() loads the drivers, which takes up
-/// to a second, and sets POCL_WORK_GROUP_SPECIALIZATION in the environment unless it is set. No other thread
-/// may read or write the environment meanwhile.
+/// to a second, and sets POCL_WORK_GROUP_SPECIALIZATION in the environment unless it is set. If PoCL cannot
+/// write its cache folder, or its disk is full, it also sets POCL_CACHE_DIR to a temporary folder, with a
+/// warning. No other thread may read or write the environment meanwhile.
 NEARLIGHT_API std::vector<DeviceInfo> list_devices();
 
 /// Where devices take kernels from and where they keep compiled ones.

@@ -35,8 +35,8 @@ struct Image {
     }
 };
 
-/// The linear colour that a screen should show, before the sRGB curve: in [0, 1] but for ToneCurve::linear.
-/// What is negative or NaN counts as 0.
+/// The linear colour that a screen should show, before the sRGB curve. ToneCurve::linear returns the colour
+/// as it is; the others are in [0, 1], and take what is negative or NaN for 0.
 NEARLIGHT_API Vec3 tone_mapped(ToneCurve curve, Vec3 color);
 
 /// How to write a picture.
@@ -72,9 +72,10 @@ NEARLIGHT_API void write_image(const std::filesystem::path& file, const Image& i
 /// Throws Error: ErrorKind::invalid_argument if R, G or B is missing.
 NEARLIGHT_API float automatic_exposure(const Image& image);
 
-/// Reads EXR, PNG, JPEG and whatever else OpenImageIO knows. Values are those of the file: integers are
-/// scaled to [0, 1], and an sRGB curve is not removed. Throws Error: ErrorKind::file with the file and the
-/// reason, ErrorKind::failure if the library's image module is missing. May be called from several threads.
+/// Reads EXR, PNG, JPEG, HDR, TIFF, BMP, GIF, WebP, PSD, DDS, PNM and PFM, which it knows by their content,
+/// and Targa, which it knows by the extension. Values are those of the file: integers are scaled to [0, 1],
+/// and an sRGB curve is not removed. Throws Error: ErrorKind::file with the file and the reason,
+/// ErrorKind::failure if the library's image module is missing. May be called from several threads.
 NEARLIGHT_API Image read_image(const std::filesystem::path& file);
 
 /// Reads a picture with linear values, as renders have them: the sRGB curve of files of integers (PNG, JPEG)

@@ -49,7 +49,7 @@ struct LoadOptions {
     /// What points upwards in the picture; empty: the axis of the world that does so as the camera stands.
     std::optional<Vec3> up{};
     /// Horizontal, degrees, above 0 and below 180. With it an orthographic camera becomes a perspective one.
-    std::optional<double> field_of_view{};
+    std::optional<double> fov_x_degrees{};
     /// An image file (latitude-longitude), `sky` (a clear sky), or a colour: R,G,B or one number as a
     /// radiance, or #rrggbb. Empty: the scene's own environment.
     std::string environment{};
@@ -73,9 +73,9 @@ struct SceneNote {
 /// that was moved from can only be assigned to and destroyed.
 class NEARLIGHT_API Scene {
   public:
-    /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj or .ply; names of
-    /// other files in it are relative to its folder. Throws Error: ErrorKind::file if a file is missing, is
-    /// broken or has unknown content, or if `options.strict` forbids an approximation;
+    /// Reads a file by its extension: .xml (Mitsuba 0.5 to 3), .gltf and .glb (glTF 2.0), .obj or .ply; names
+    /// of other files in it are relative to its folder. Throws Error: ErrorKind::file if a file is missing,
+    /// is broken or has unknown content, or if `options.strict` forbids an approximation;
     /// ErrorKind::invalid_argument for a camera or a definition that is not there, or a number out of its
     /// range; ErrorKind::failure if the library's image module, which reads textures, is missing. A texture
     /// file that cannot be read is replaced by grey, with a note. Notes also go to the message sink

@@ -13,8 +13,8 @@ namespace nearlight {
 /// A connection to the image viewer tev (https://github.com/Tom94/tev). For one thread at a time.
 class NEARLIGHT_API TevLink {
   public:
-    /// Connects to a tev at "HOST:PORT". Throws Error: ErrorKind::invalid_argument for another form,
-    /// ErrorKind::failure if nobody listens there.
+    /// Connects to a tev at "HOST:PORT", or at "HOST" or "[IPv6]:PORT"; the usual port is 14158. Throws
+    /// Error: ErrorKind::invalid_argument for another form, ErrorKind::failure if nobody listens there.
     explicit TevLink(const std::string& address);
     ~TevLink();
     TevLink(TevLink&&) noexcept;

@@ -18,12 +18,6 @@ typedef struct AimCone {
     float height;  // 1 − cosine of half the angle of the cone
 } AimCone;
 
-/// 1 − cosine of the angle of this sine, which is below 90°, without the loss of digits that small angles
-/// would suffer.
-static inline float cone_height(float squared_sine) {
-    return squared_sine / (1.0f + sqrt(fmax(1.0f - squared_sine, 0.0f)));
-}
-
 static inline AimCone aim_cone(const AimTarget* target, float3 x) {
     const float3 way = target->center - x;
     const float distance = length(way);
@@ -37,8 +31,7 @@ static inline AimCone aim_cone(const AimTarget* target, float3 x) {
 /// A direction towards the target, evenly over its cone, or around it in a cone of up to a hemisphere.
 static inline float3 aim_cone_sample(const AimCone* cone, float u, float2 v) {
     const float height = u < PART_TOWARDS ? v.x * cone->height : cover_around(cone->height, 1.0f, v.x);
-    const float across = sqrt(height * (2.0f - height));
-    return to_world_frame((float3)(across * circle_point(v.y), 1.0f - height), cone->axis);
+    return to_world_frame(cone_direction(height, v.y), cone->axis);
 }
 
 /// The density of these directions per steradian.

@@ -96,8 +96,7 @@ static inline float3 caustic_direction(const CausticAim* aim, float2 u) {
     const float3 to_target = load3(aim->targets[i]) - aim->x;
     const float distance = distance_of(to_target);
     const float below_one = (place - (float)i) * caustic_cone(aim, distance);
-    const float sine = sqrt(below_one * (2.0f - below_one));
-    return to_world_frame((float3)(sine * circle_point(u.y), 1.0f - below_one), to_target / distance);
+    return to_world_frame(cone_direction(below_one, u.y), to_target / distance);
 }
 
 /// The part that counts of what a cosine-distributed ray finds in a direction, beside the rays that aim.

@@ -138,7 +138,7 @@ static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* 
         const float scale = length == 1 ? long_scale : (is_short ? way->short_scale - long_scale : 0.0f);
         if (scale != 0.0f) {
             const uint edges = length == 0 ? wanted->max_edges : way->max_edges;
-            const LightQuota quota = {1, 1, edges - surfaces - 1, 0, 0};
+            const LightQuota quota = {.samples = 1, .rays = 1, .max_veils = edges - surfaces - 1};
             sum += scale * reflected_light(scene, hit, surface, parts, &quota, seed);
         }
     }

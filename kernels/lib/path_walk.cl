@@ -18,8 +18,8 @@ OUTLINED_ON_CPU float gather_radius(const SceneView* scene, const GatherRadius* 
         const uint key =
             random_uint4((uint4)(as_uint(y.x), as_uint(y.y), as_uint(y.z), law->seed ^ 0x6a7be4u)).x;
         const ReceiverPoint at = {y, n, (float3)(0.0f), 0};
-        const float light =
-            luminance(sampled_direct_light(scene, &at, GATHER_LIGHT_SAMPLES, 0, 0, 0, 0, key));
+        const LightQuota quota = {.samples = GATHER_LIGHT_SAMPLES};
+        const float light = luminance(sampled_direct_light(scene, &at, &quota, key));
         for (uint level = 1; level < GATHER_LEVELS && radius * sqrt(light) > law->at_unit_light; ++level) {
             radius *= 0.5f;
         }
@@ -73,8 +73,8 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
                                              const ReceiverPoint* at, uint max_edges, uint direct_samples,
                                              uint seed) {
     const uint4 keys = random_uint4((uint4)(0x3a1du, seed, 0u, 0x9a7bu));
-    float3 irradiance =
-        sampled_direct_light(scene, at, direct_samples, 1, 0, max(max_edges, 1u) - 1, 0, keys.x);
+    const LightQuota quota = {.samples = direct_samples, .rays = 1, .max_veils = max(max_edges, 1u) - 1};
+    float3 irradiance = sampled_direct_light(scene, at, &quota, keys.x);
     if (max_edges > 1) {
         irradiance += connected_irradiance(scene, to, at, max_edges - 1, to_unit_float(keys.w));
     }

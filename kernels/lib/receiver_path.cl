@@ -171,7 +171,7 @@ OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, con
             break;
         }
         if (is_mirror_or_glass(&surface, false) && !is_delta_only(&surface.bsdf)) {
-            const LightQuota quota = {1, 1, limits->max_edges - surfaces - 1, 0, 0};
+            const LightQuota quota = {.samples = 1, .rays = 1, .max_veils = limits->max_edges - surfaces - 1};
             light +=
                 ray.throughput * reflected_light(scene, &hit, &surface, BSDF_S, &quota, numbers.light_seed);
         }
@@ -265,9 +265,12 @@ OUTLINED_ON_CPU ReceivedLight received_light(const SceneView* scene, const Recei
     light.direct *= scale;
     light.indirect *= scale;
     if (limits->max_edges > 0) {
-        light.direct +=
-            sampled_direct_light(scene, at, limits->light_samples, limits->rays, limits->bundle_rays,
-                                 limits->max_edges - 1, limits->sample * limits->light_samples, keys.x);
+        const LightQuota quota = {.samples = limits->light_samples,
+                                  .rays = limits->rays,
+                                  .max_veils = limits->max_edges - 1,
+                                  .bundle_rays = limits->bundle_rays,
+                                  .first = limits->sample * limits->light_samples};
+        light.direct += sampled_direct_light(scene, at, &quota, keys.x);
     }
     return light;
 }

@@ -78,33 +78,31 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
     return density > 0.0f ? response / density * part * light_radiance(scene, light) : (float3)(0.0f);
 }
 
-/// The part of the direct light that light samples bring through at most `max_veils` veils, if each receiver
-/// sends `rays` rays too. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. Without rays, light
-/// samples bring all of it. `first` is the number of the first sample in the sequence of `seed`. As many rays
-/// of the bundle as `bundle_rays` look for the sky too.
-static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at, uint sample_count,
-                                          uint rays, uint bundle_rays, uint max_veils, uint first,
-                                          uint seed) {
+/// The part of the direct light that light samples bring, beside the receiver's rays; without rays, light
+/// samples bring all of it. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. `key` is that of the
+/// sequence of light samples.
+static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at,
+                                          const LightQuota* quota, uint key) {
     float3 exact = (float3)(0.0f);
     for (uint i = 0; i < exact_light_count(scene); ++i) {
         const LightSample light = exact_light(scene, i, at->x);
-        exact += sampled_irradiance(scene, at, &light, 0.0f, 0.0f, max_veils);
+        exact += sampled_irradiance(scene, at, &light, 0.0f, 0.0f, quota->max_veils);
     }
     if (!has_sampled_lights(scene)) {
         return exact;
     }
-    const float ray_ratio = (float)rays / (float)sample_count;
-    const float bundle_ratio = (float)bundle_rays / (float)sample_count;
+    const float ray_ratio = (float)quota->rays / (float)quota->samples;
+    const float bundle_ratio = (float)quota->bundle_rays / (float)quota->samples;
     const LightReceiver receiver = even_receiver(at->x, at->n);
     float3 sum = (float3)(0.0f);
-    for (uint s = 0; s < sample_count; ++s) {
-        const float2 choice = sample_2d(first + s, 0, seed);
-        const float2 u = sample_2d(first + s, 1, seed);
-        const LightSample light = rays > 0 ? sample_light(scene, &receiver, choice, u)
-                                           : sample_light_or_cosine(scene, &receiver, choice, u);
-        sum += sampled_irradiance(scene, at, &light, ray_ratio, bundle_ratio, max_veils);
+    for (uint s = 0; s < quota->samples; ++s) {
+        const float2 choice = sample_2d(quota->first + s, 0, key);
+        const float2 u = sample_2d(quota->first + s, 1, key);
+        const LightSample light = quota->rays > 0 ? sample_light(scene, &receiver, choice, u)
+                                                  : sample_light_or_cosine(scene, &receiver, choice, u);
+        sum += sampled_irradiance(scene, at, &light, ray_ratio, bundle_ratio, quota->max_veils);
     }
-    return exact + sum / (float)sample_count;
+    return exact + sum / (float)quota->samples;
 }
 
 #endif

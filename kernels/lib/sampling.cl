@@ -47,11 +47,22 @@ static inline float3 square_to_cosine_hemisphere(float2 u) {
     return (float3)(sqrt(u.x) * circle_point(u.y), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
-/// A direction within an angle about +Z whose cosine is 1 − `height`, with the density 1 / (2π·height).
-/// Heights tell small angles apart, which cosines do not. A height of 2 gives the whole sphere.
+/// 1 − cosine of the angle of this sine, which is below 90°, without the loss of digits that small angles
+/// would suffer.
+static inline float cone_height(float squared_sine) {
+    return squared_sine / (1.0f + sqrt(fmax(1.0f - squared_sine, 0.0f)));
+}
+
+/// The direction at an angle to +Z whose cosine is 1 − `height`, `turns` around it. Heights tell small angles
+/// apart, which cosines do not.
+static inline float3 cone_direction(float height, float turns) {
+    return (float3)(sqrt(height * fmax(2.0f - height, 0.0f)) * circle_point(turns), 1.0f - height);
+}
+
+/// A direction within an angle about +Z whose cosine is 1 − `height`, with the density 1 / (2π·height). A
+/// height of 2 gives the whole sphere.
 static inline float3 square_to_cap(float2 u, float height) {
-    const float below = height * u.x;
-    return (float3)(sqrt(below * fmax(2.0f - below, 0.0f)) * circle_point(u.y), 1.0f - below);
+    return cone_direction(height * u.x, u.y);
 }
 
 /// Weights of v1 and v2 of a uniform point in a triangle. Neighbours stay neighbours, so that points that are

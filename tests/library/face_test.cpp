@@ -285,7 +285,7 @@ TEST(LibraryScene, CameraAndLightCanBeReplaced) {
     EXPECT_NE(Scene::load(kFloor, {.light_scale = 2}).hash(), own);
     EXPECT_NE(Scene::load(kFloor, {.origin = Vec3{0, 0, 5}, .target = Vec3{0, 0, 0}}).hash(), own);
     EXPECT_THROW(Scene::load(kFloor, {.camera = "nosuch"}), Error);
-    EXPECT_THROW(Scene::load(kFloor, {.field_of_view = 180.0}), Error);
+    EXPECT_THROW(Scene::load(kFloor, {.fov_x_degrees = 180.0}), Error);
 }
 
 TEST(LibraryDevices, UnknownOnesAreErrors) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 namespace nearlight::core::light_probes {
 
@@ -11,12 +12,21 @@ inline constexpr Float4 kOrigin{0, 0, 0, 0};
 inline constexpr Float4 kUp{0, 0, 1, 0};
 inline constexpr Float4 kNoLobe{0, 0, 1, 0};
 
+/// Begins the probes: the radiance of the sky in a direction, as rays of pictures find it.
+inline const std::string kSkyProbe = R"(
+#include "lib/light/sample.cl"
+#include "lib/random.cl"
+static inline float3 sky_radiance(const SceneView* scene, const LightReceiver* at, float3 direction) {
+    const MapSample map = map_sample_towards(scene, direction);
+    const LightSample sky = sample_of_sky(scene, at, &map);
+    return light_radiance(scene, &sky);
+}
+)";
+
 /// Takes samples at the receiver, which has a lobe of the roughness viewer.w if that is not 0, and asks for
 /// the density of the direction of each by tracing it. `out` gets (density of the sample, density by
 /// light_pdf, radiance found ÷ radiance of the sample, 1 if visible).
-inline constexpr const char* kSampleProbe = R"(
-#include "lib/light/sample.cl"
-#include "lib/random.cl"
+inline const std::string kSampleProbe = kSkyProbe + R"(
 kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewer, uint count, global float4* out) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {
@@ -28,7 +38,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewe
     const LightReceiver at = glossy_receiver(x, n, viewer.xyz, 1.0f, viewer.w);
     const LightSample light = sample_light(&scene, &at, sample_2d(i, 0, 7), sample_2d(i, 1, 7));
     const SurfaceHit hit = trace_surface(&scene, x, light.direction, INFINITY);
-    const float3 found = hit.t < 0.0f ? environment_radiance(&scene, light.direction)
+    const float3 found = hit.t < 0.0f ? sky_radiance(&scene, &at, light.direction)
                                       : emitted_radiance(&scene, &hit);
     out[i] = (float4)(light.pdf, light_pdf(&scene, &at, light.direction, &hit), found.y / light_radiance(&scene, &light).y,
                       may_shine(&light) ? (float)light_is_visible(&scene, x, &light) : 0.0f);
@@ -53,7 +63,7 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, float4 viewe
 )";
 
 /// Irradiance by light samples combined with cosine-distributed rays.
-inline constexpr const char* kCombinedProbe = R"(
+inline const std::string kCombinedProbe = kSkyProbe + R"(
 #include "lib/receiver_path.cl"
 kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_samples, uint rays, uint count,
                   global float4* out) {
@@ -66,11 +76,12 @@ kernel void probe(SCENE_PARAMETERS, float4 position, float4 normal, uint light_s
     const float3 n = normal.xyz;
     const ReceiverPoint at = {x, n, (float3)(0.0f), 0};
     const LightReceiver receiver = even_receiver(x, n);
-    float3 sum = sampled_direct_light(&scene, &at, light_samples, rays, 0, 0, 0, i);
+    const LightQuota quota = {.samples = light_samples, .rays = rays};
+    float3 sum = sampled_direct_light(&scene, &at, &quota, i);
     for (uint ray = 0; ray < rays; ++ray) {
         const float3 direction = to_world_frame(square_to_cosine_hemisphere(sample_2d(ray, 5, i)), n);
         const SurfaceHit hit = trace_surface(&scene, x, direction, INFINITY);
-        const float3 found = hit.t < 0.0f ? environment_radiance(&scene, direction)
+        const float3 found = hit.t < 0.0f ? sky_radiance(&scene, &receiver, direction)
                                           : emitted_radiance(&scene, &hit);
         const float own = (float)rays * dot(n, direction) * M_1_PI_F;
         const float other = (float)light_samples * light_pdf(&scene, &receiver, direction, &hit);

@@ -79,15 +79,14 @@ TEST_F(LightSamplingTest, BetweenThePixelsOfAMapTheDeviceReadsWhatTheHostReads) 
     const MapShape map{.width = 5, .height = 4, .is_interpolated = true};
     const Mat4 to_local = inverse(scene.environment.to_world);
     on_each_device([&](Device& device) {
-        KernelProbe probe(device, R"(
-#include "lib/light/sample.cl"
-#include "lib/random.cl"
+        KernelProbe probe(device, light_probes::kSkyProbe + R"(
 kernel void probe(SCENE_PARAMETERS, global float4* directions, global float4* radiances) {
     const uint i = (uint)get_global_id(0);
     const SceneView scene = SCENE_VIEW;
     const float3 direction = square_to_cap(sample_2d(i, 0, 7), 2.0f);
+    const LightReceiver at = even_receiver((float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f));
     directions[i] = (float4)(direction, 0.0f);
-    radiances[i] = (float4)(environment_radiance(&scene, direction), 0.0f);
+    radiances[i] = (float4)(sky_radiance(&scene, &at, direction), 0.0f);
 }
 )");
         const SceneOnDevice on_device(probe.device(), scene);

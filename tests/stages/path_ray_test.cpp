@@ -80,7 +80,7 @@ kernel void probe(SCENE_PARAMETERS, global float* out) {
     const float3 along = (float3)(0.0f, 0.0f, 1.0f);
     const SurfaceHit hit = trace_surface(&scene, (float3)(0.1f, 0.2f, 0.0f), along, INFINITY);
     const SurfaceBsdf metal = surface_bsdf(&scene, &hit, along, BSDF_RADIANCE, 0.5f);
-    const LightQuota quota = {4, 12, 0, 0, 0};
+    const LightQuota quota = {.samples = 4, .rays = 12};
     const uint key = (uint)get_global_id(0);
     out[key] = reflected_light(&scene, &hit, &metal, BSDF_S, &quota, key).x;
 }

@@ -327,7 +327,7 @@ kernel void probe(SCENE_PARAMETERS, float4 axis, global float4* out) {
     const global Emitter* light = scene.emitters;
     const WalkAim aim = {{0.0f, 0.0f, 0.0f}, 0.0f};
     const EmittedParticle particle =
-        emit_particle(&scene, &aim, (float2)(0.5f), sample_2d(i, 0, 3), sample_2d(i, 1, 3));
+        emit_particle(&scene, &aim, 0.5f, sample_2d(i, 0, 3), sample_2d(i, 1, 3));
     const float3 from = particle.origin - load3(light->position);
     const float3 across = cross(particle.direction, load3(light->direction));
     const float3 past = light->type == NEARLIGHT_EMITTER_SPHERE ? cross(from, particle.direction)

@@ -93,7 +93,8 @@ static inline float map_tilt(float cosine) {
 /// decided.
 static inline bool decide(float* u, float probability) {
     const bool yes = *u < probability;
-    *u = yes ? *u / probability : (*u - probability) / (1.0f - probability);
+    // Rounding may take the quotient to 1, at which a later decision with probability 1 would say no.
+    *u = fmin(yes ? *u / probability : (*u - probability) / (1.0f - probability), 0x1.fffffep-1f);
     return yes;
 }
 

@@ -43,6 +43,12 @@ static inline bool is_area_light(const global Emitter* emitter) {
            emitter->type == NEARLIGHT_EMITTER_CYLINDER;
 }
 
+/// Whether the light is the environment's map or its sun, which share a direction: a sample of either brings
+/// the radiance of both, and has the density of both.
+static inline bool is_distant(const global Emitter* emitter) {
+    return emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN;
+}
+
 static inline bool has_light_tree(const SceneView* scene) {
     return scene->info->tree_first < scene->info->tree_end;
 }

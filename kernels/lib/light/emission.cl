@@ -211,15 +211,15 @@ static inline EmittedParticle emit_from_direction(const SceneView* scene, const 
     return particle;
 }
 
-OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float2 choice,
+OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float choice,
                                        float2 u_position, float2 u_direction) {
-    const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice.x);
+    const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice);
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
         particle = emit_from_triangle(scene, emitter, u_position, u_direction);
     } else if (is_area_light(emitter)) {
         particle = emit_from_round_light(scene, emitter, u_position, u_direction);
-    } else if (emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN) {
+    } else if (is_distant(emitter)) {
         particle = emit_from_environment(scene, aim, emitter->type == NEARLIGHT_EMITTER_SUN, u_position,
                                          u_direction);
     } else if (emitter->type == NEARLIGHT_EMITTER_DIRECTIONAL) {

@@ -88,11 +88,6 @@ static inline float3 sun_radiance(const SceneView* scene, float3 direction) {
     return meets_sun(scene, direction) ? load3(scene->environment->sun_radiance) : (float3)(0.0f);
 }
 
-static inline float3 environment_radiance(const SceneView* scene, float3 direction) {
-    const float3 map = has_map(scene) ? map_radiance(scene, map_place(scene, direction)) : (float3)(0.0f);
-    return map + sun_radiance(scene, direction);
-}
-
 /// A part of the map that the tables choose as a whole: a block of pixels, or one pixel of a block in which
 /// radiance varies. The density of directions is constant inside.
 typedef struct MapRegion {

@@ -98,12 +98,6 @@ static inline LightSample sample_round_light(const SceneView* scene, const globa
     return sample;
 }
 
-/// Whether the light is the environment's map or its sun, which share a direction: a sample of either brings
-/// the radiance of both, and has the density of both.
-static inline bool is_distant(const global Emitter* emitter) {
-    return emitter->type == NEARLIGHT_EMITTER_ENVIRONMENT || emitter->type == NEARLIGHT_EMITTER_SUN;
-}
-
 /// Light from the entry `index` of the table, which is neither the map nor the sun, with the density that it
 /// has once this light is chosen.
 OUTLINED LightSample sample_emitter(const SceneView* scene, uint index, float3 x, float2 u) {

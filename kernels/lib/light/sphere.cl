@@ -25,8 +25,7 @@ static inline SeenSphere seen_sphere(const global Emitter* emitter, float3 x) {
     seen.squared = dot(seen.to_center, seen.to_center);
     seen.cone_height = 0.0f;
     if (seen.squared > emitter->outer_radius * emitter->outer_radius) {
-        const float squared_sine = emitter->radius * emitter->radius / seen.squared;
-        seen.cone_height = squared_sine / (1.0f + sqrt(1.0f - squared_sine));
+        seen.cone_height = cone_height(emitter->radius * emitter->radius / seen.squared);
     }
     return seen;
 }
@@ -62,8 +61,7 @@ static inline RoundSample sample_sphere(const global Emitter* emitter, float3 x,
     RoundSample sample;
     sample.pdf = cone_density(&seen);
     sample.direction = seen.squared > 0.0f
-                           ? to_world_frame((float3)(sqrt(squared_sine) * circle_point(u.y), 1.0f - height),
-                                            seen.to_center / distance)
+                           ? to_world_frame(cone_direction(height, u.y), seen.to_center / distance)
                            : (float3)(0.0f, 0.0f, 1.0f);
     const float within = sqrt(fmax(0.0f, outer * outer - seen.squared * squared_sine));
     sample.point = x + (distance * (1.0f - height) - within) * sample.direction;
