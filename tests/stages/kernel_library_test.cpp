@@ -210,6 +210,38 @@ TEST_F(KernelLibraryTest, UnitFloatsStayBelowOne) {
     });
 }
 
+/// What is left of a random number after a decision decides further: it may not reach 1.
+TEST_F(KernelLibraryTest, DecisionsLeaveNumbersBelowOne) {
+    on_each_device([](Device& device) {
+        KernelProbe probe(device,
+                          "#include \"lib/bsdf/surface.cl\"\n"
+                          "kernel void probe(global float* out) {\n"
+                          "    const uint i = (uint)get_global_id(0);\n"
+                          "    const float p = ((float)i + 0.37f) / 4097.0f;\n"
+                          "    float below = 0.5f * p, above = 0.5f + 0.5f * p, high = 0x1.fffffep-1f;\n"
+                          "    out[6 * i] = decide(&below, p);\n"
+                          "    out[6 * i + 1] = decide(&above, p);\n"
+                          "    out[6 * i + 2] = decide(&high, p);\n"
+                          "    out[6 * i + 3] = below;\n"
+                          "    out[6 * i + 4] = above;\n"
+                          "    out[6 * i + 5] = high;\n"
+                          "}\n");
+        constexpr uint kCount = 4096;
+        Buffer<float> out(probe.device(), 6 * kCount);
+        probe.kernel().launch(kCount, 8, out);
+        const std::vector<float> found = out.download();
+        for (uint i = 1; i < kCount; ++i) {
+            const float* const at = &found[std::size_t{6} * i];
+            ASSERT_EQ(at[0], 1.0f) << i;
+            ASSERT_EQ(at[1], 0.0f) << i;
+            ASSERT_EQ(at[2], 0.0f) << i;
+            ASSERT_NEAR(at[3], 0.5f, 1e-6f) << i;
+            ASSERT_NEAR(at[4], 0.5f, 1e-3f) << i;
+            ASSERT_LT(at[5], 1.0f) << i;
+        }
+    });
+}
+
 /// Every way to cut the unit square into 256 equal boxes of power-of-two sides gives each box one point.
 void expect_net(const std::vector<std::array<float, 2>>& points) {
     for (uint columns = 1; columns <= 256; columns *= 2) {
