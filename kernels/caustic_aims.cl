@@ -27,7 +27,7 @@ OUTLINED_ON_CPU CausticLanding follow_caustic(const SceneView* scene, uint walk,
     for (uint bounce = 0; bounce < MAX_CAUSTIC_BOUNCES && !particle.from_delta && !is_black(particle.flux);
          ++bounce) {
         const uint4 random = random_uint4((uint4)(walk, bounce, 0xca57u, seed));
-        Landing at;
+        MetSurface at;
         if (!land(scene, &particle, to_unit_float(random.x), &at)) {
             break;
         }

@@ -30,7 +30,7 @@ static inline bool is_close_surface(const global CloseRange* close_range, const 
 }
 
 /// The part of the walks that a surface sends on.
-static inline float survival(const SceneView* scene, const EmittedParticle* particle, const Landing* at,
+static inline float survival(const SceneView* scene, const EmittedParticle* particle, const MetSurface* at,
                              float min_survival, float max_survival) {
     const float3 reflected = particle->flux * bsdf_albedo(scene, &at->surface);
     return clamp(max_component(reflected) / max_component(particle->flux), min_survival, max_survival);
@@ -55,7 +55,7 @@ OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const ClosePlaces* clos
     for (uint bounce = 0; bounce < params->bounce_count; ++bounce) {
         const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * bounce;
         const float2 choice = sample_2d(walk, pair, seed);
-        Landing at;
+        MetSurface at;
         if (!((float)walk + params->absorption_shift < launched) || is_black(particle.flux) ||
             !land(scene, &particle, choice.x, &at)) {
             break;

@@ -54,7 +54,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
     const float probability = step_of_cdf(depth_cdf, last);
     EmittedParticle particle =
         emit_particle(&scene, &aim, choice.y, numbers[count + index], numbers[2 * count + index]);
-    Landing at;
+    MetSurface at;
     float3 reflected = (float3)(0.0f);
     for (uint step = 0; step <= last && !is_black(particle.flux); ++step) {
         const uint pair = NEARLIGHT_WALK_PAIRS_ON_LIGHT + NEARLIGHT_WALK_PAIRS_PER_STEP * step;

@@ -19,31 +19,30 @@ namespace {
 constexpr double kUnoccludedPart = 0.1;
 constexpr double kPowerPart = 0.01;
 /// The maximum number of candidates on the device at a time, which bounds device memory.
-constexpr std::size_t kMaxInChunk = std::size_t{1} << 18u;
+constexpr std::size_t kMaxAtOnce = std::size_t{1} << 18u;
 /// The maximum number of candidates on the device at a time if their rows of numbers are computed.
-constexpr std::size_t kMaxRowsInChunk = std::size_t{1} << 15u;
+constexpr std::size_t kMaxRowsAtOnce = std::size_t{1} << 15u;
 /// The maximum number of candidates whose rows are kept: 96 MiB, which is enough for some 10 000 VPLs.
 constexpr std::size_t kMaxRowsKept = std::size_t{1} << 17u;
 
 /// The number of candidates to work on at a time: as many as one allocation has room for, at most `max_size`.
-/// All chunks have nearly the same size.
-std::size_t chunk_size(const Device& device, std::size_t count, std::size_t max_size,
-                       std::size_t bytes_each) {
+/// All parts have nearly the same size.
+std::size_t part_size(const Device& device, std::size_t count, std::size_t max_size, std::size_t bytes_each) {
     const std::size_t room = device.entry().max_allocation_bytes / std::max(bytes_each, 2 * sizeof(Vpl));
-    const std::size_t chunks = divide_rounding_up(count, std::clamp<std::size_t>(room, 1, max_size));
-    return divide_rounding_up(count, std::max<std::size_t>(chunks, 1));
+    const std::size_t parts = divide_rounding_up(count, std::clamp<std::size_t>(room, 1, max_size));
+    return divide_rounding_up(count, std::max<std::size_t>(parts, 1));
 }
 
-/// Calls visit(first, contribution) for all candidates, chunk by chunk, with the GroupContribution of a chunk
+/// Calls visit(first, contribution) for all candidates, part by part, with the GroupContribution of a part
 /// that begins at candidate `first`.
 template <typename Visit>
 void for_each_contribution(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> candidates,
                            const Visit& visit) {
     const std::size_t packet_bytes = (1 + task.view.importon_groups.group_count) * sizeof(IrradiancePacket);
-    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMaxRowsInChunk,
-                                         divide_rounding_up(packet_bytes, NEARLIGHT_PACKET_SIZE));
-    for (std::size_t first = 0; first < candidates.size(); first += chunk) {
-        const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
+    const std::size_t size = part_size(stages.device, candidates.size(), kMaxRowsAtOnce,
+                                       divide_rounding_up(packet_bytes, NEARLIGHT_PACKET_SIZE));
+    for (std::size_t first = 0; first < candidates.size(); first += size) {
+        const std::span part = candidates.subspan(first, std::min(size, candidates.size() - first));
         visit(first, stages.vpl_contribution.by_group(task.scene, Buffer<Vpl>(stages.device, part),
                                                       part.size(), task.view, task.clamp_radius));
     }
@@ -79,9 +78,9 @@ std::vector<float> choice_weights(SamplerStages& stages, const SamplingTask& tas
     weights.reserve(candidates.size());
     std::vector<float> unoccluded;
     unoccluded.reserve(candidates.size());
-    const std::size_t chunk = chunk_size(stages.device, candidates.size(), kMaxInChunk, sizeof(Vpl));
-    for (std::size_t first = 0; first < candidates.size(); first += chunk) {
-        const std::span part = candidates.subspan(first, std::min(chunk, candidates.size() - first));
+    const std::size_t size = part_size(stages.device, candidates.size(), kMaxAtOnce, sizeof(Vpl));
+    for (std::size_t first = 0; first < candidates.size(); first += size) {
+        const std::span part = candidates.subspan(first, std::min(size, candidates.size() - first));
         const Buffer<Vpl> vpls(stages.device, part);
         Buffer<float> contribution(stages.device, part.size());
         stages.vpl_contribution.run(task.scene, vpls, part.size(), task.view, task.clamp_radius, contribution,

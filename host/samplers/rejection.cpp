@@ -40,7 +40,7 @@ constexpr double kMaxCandidatesPerVpl = 32;
 constexpr double kRejectionBlindShare = 0.1;
 
 constexpr uint kFirstPilotWalks = 2048;
-constexpr uint kEnoughPilotWalks = 32768;  ///< no further round begins after so many walks
+constexpr uint kEnoughPilotWalks = 32768;  ///< no further trial begins after so many walks
 constexpr std::ptrdiff_t kEnoughContributors = 512;
 constexpr uint kRejectionPilotSeed = 0x4e1ec7u;
 constexpr std::uint64_t kDecisions = 0xacce97;
@@ -73,18 +73,18 @@ LightWalks light_walks(const SamplingTask& task, uint walk_count, uint seed) {
 }
 
 struct Pilot {
-    std::vector<float> contributions;  ///< contributions to the camera, each times the walks of its round
+    std::vector<float> contributions;  ///< contributions to the camera, each times the walks of its trial
     uint walk_count = 0;
 };
 
-/// Traces rounds of walks, each with twice as many as the round before, until enough candidates contribute to
+/// Makes trials of walks, each with twice as many as the trial before, until enough candidates contribute to
 /// the camera.
 Pilot explore(SamplerStages& stages, const SamplingTask& task, const CloseRegion& region) {
     Pilot pilot;
     const auto contributes = [](float contribution) { return contribution > 0.0f; };
-    for (uint round = 0; pilot.walk_count < kEnoughPilotWalks; ++round) {
+    for (uint trial = 0; pilot.walk_count < kEnoughPilotWalks; ++trial) {
         const LightWalks walks =
-            light_walks(task, kFirstPilotWalks << round, task.seed ^ (kRejectionPilotSeed + round));
+            light_walks(task, kFirstPilotWalks << trial, task.seed ^ (kRejectionPilotSeed + trial));
         stages.light_tracer.run(
             task.scene, region, KeepDeposits::all, walks, [&](const auto& vpls, std::size_t count) {
                 const WeighedCandidates candidates =

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMinGroup = 24;
 constexpr int kBeginnings = 12;  ///< ways to begin that are tried
-constexpr int kRounds = 8;       ///< of assignment and fit
+constexpr int kFits = 8;         ///< of centres to the lines that are assigned to them
 constexpr double kPartInside = 0.85;
 /// How much the mean of the origins attracts a centre, compared with the half lines. Parallel ones do not
 /// tell how far along them they pass.
@@ -144,7 +144,7 @@ std::vector<Waist> find_waists(std::span<const HalfLine> lines, std::size_t max_
     for (int beginning = 0; beginning < kBeginnings; ++beginning) {
         const std::size_t count = std::min(max_count, lines.size() / kMinGroup);
         Division division = divide(lines, first_centers(lines, count, random));
-        for (int round = 0; round < kRounds; ++round) {
+        for (int fit = 0; fit < kFits; ++fit) {
             std::vector<Vec3> centers = moved_centers(lines, division);
             if (centers.empty()) {
                 break;

@@ -16,15 +16,15 @@
 #include "lib/vpl.cl"
 #include "shared/light_walk.h"
 
-/// Where a particle landed.
-typedef struct Landing {
+/// The surface that a particle met.
+typedef struct MetSurface {
     SurfaceHit hit;
     SurfaceBsdf surface;
-} Landing;
+} MetSurface;
 
 /// Follows the particle to the surface that it meets, of whose BSDFs `u` chooses where there are several.
 /// Returns false, with `at` undefined, if there is none.
-static inline bool land(const SceneView* scene, const EmittedParticle* particle, float u, Landing* at) {
+static inline bool land(const SceneView* scene, const EmittedParticle* particle, float u, MetSurface* at) {
     at->hit = trace_surface(scene, particle->origin, particle->direction, INFINITY);
     if (at->hit.t < 0.0f) {
         return false;
@@ -47,7 +47,7 @@ static inline float deposit_factor(const SurfaceBsdf* s) {
 /// What the Lambertian part reflects of the particle's flux, before the transmission on the way out; 0 where
 /// there is no such part.
 static inline float3 reflected_flux(const SceneView* scene, const EmittedParticle* particle,
-                                    const Landing* at) {
+                                    const MetSurface* at) {
     const Bsdf* bsdf = &at->surface.bsdf;
     const float geometric = -dot(at->hit.geometric, particle->direction);
     const float shading = -dot(at->surface.frame.n, particle->direction);
@@ -60,7 +60,7 @@ static inline float3 reflected_flux(const SceneView* scene, const EmittedParticl
 }
 
 /// The deposit of a particle: the VPL that it leaves where it landed.
-static inline Vpl make_deposit(const SceneView* scene, const Landing* at, uint depth, uint flags,
+static inline Vpl make_deposit(const SceneView* scene, const MetSurface* at, uint depth, uint flags,
                                float3 power) {
     const float3 normal = at->hit.geometric;
     return make_vpl(offset_point(scene, at->hit.position, normal), normal, at->surface.frame.n,
@@ -75,8 +75,8 @@ static inline bool scatters_widely(const Bsdf* bsdf) {
 
 /// A direction in which a particle goes on from where it landed: one drawn from the BSDF, or one about a
 /// sphere at which walks aim. The density is that of all ways together (the balance heuristic).
-static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at, const WalkAim* aim, float u,
-                                       float2 v) {
+static inline BsdfSample sample_way_on(const SceneView* scene, const MetSurface* at, const WalkAim* aim,
+                                       float u, float2 v) {
     const float3 x = at->hit.position;
     const uint useful = targets_for_surface(aim, x, at->hit.geometric);
     const AimParts parts = divide_aim(aim, scatters_widely(&at->surface.bsdf) ? useful : 0);
@@ -105,7 +105,7 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const Landing* at
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
 /// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
 /// straight through veils.
-OUTLINED_ON_CPU void scatter(const SceneView* scene, EmittedParticle* particle, const Landing* at,
+OUTLINED_ON_CPU void scatter(const SceneView* scene, EmittedParticle* particle, const MetSurface* at,
                              const WalkAim* aim, float u, float2 v) {
     const BsdfSample sample = sample_way_on(scene, at, aim, u, v);
     const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
