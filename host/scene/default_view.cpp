@@ -87,9 +87,11 @@ SceneCamera default_camera(const Scene& scene) {
     return camera;
 }
 
-void add_default_camera(Scene& scene, NoteSink& notes) {
+void add_default_camera(Scene& scene, bool is_placed, NoteSink& notes) {
     scene.camera = default_camera(scene);
-    notes.remark(scene.source, 0, "the file has no camera; one that frames everything is added");
+    if (!is_placed) {
+        notes.remark(scene.source, 0, "the file has no camera; one that frames everything is added");
+    }
 }
 
 void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes) {

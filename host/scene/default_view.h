@@ -11,8 +11,8 @@ namespace nearlight::core {
 /// above; y is up.
 SceneCamera default_camera(const Scene& scene);
 
-/// Adds the default camera with a remark.
-void add_default_camera(Scene& scene, NoteSink& notes);
+/// Adds the default camera, with a remark unless `is_placed`: someone says where it stands.
+void add_default_camera(Scene& scene, bool is_placed, NoteSink& notes);
 
 /// Adds a neutral sky with a remark if there is no other light. Surfaces that shine count as lights if
 /// `surfaces_are_lamps`.

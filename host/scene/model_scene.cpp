@@ -25,7 +25,7 @@ uint add_plain_surface(Scene& scene, bool has_vertex_colors) {
 
 void finish_model(Scene& scene, const LoadOptions& options, NoteSink& notes) {
     choose_named(scene.source, "camera", {}, options.camera);
-    add_default_camera(scene, notes);
+    add_default_camera(scene, options.overrides.origin.has_value(), notes);
     if (!options.overrides.bring_light()) {
         add_default_light(scene, true, notes);
     }

@@ -129,6 +129,16 @@ void check_before_reading(const GltfFile& file, std::string_view text, const Jso
     }
 }
 
+/// Refuses a file that asks for a later version, or is of another major one.
+void check_version(const GltfFile& file) {
+    const tinygltf::Asset& asset = file.model.asset;
+    const std::string& needed = asset.minVersion.empty() ? asset.version : asset.minVersion;
+    const bool is_read = asset.minVersion.empty() ? needed.starts_with("2.") : needed == "2.0";
+    if (!is_read) {
+        file.fail("needs glTF " + needed + ", but only glTF 2.0 is read");
+    }
+}
+
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
@@ -257,6 +267,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     if (!read) {
         file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
     }
+    check_version(file);
     decode_other_images(file.model);
     if (is_decoded_by_meshopt(survey)) {
         decode_meshopt(file);

@@ -20,7 +20,7 @@ std::vector<gltf::PlacedCamera> cameras_of(const gltf::GltfFile& file,
                                            const std::vector<gltf::PlacedNode>& nodes) {
     std::vector<gltf::PlacedCamera> cameras;
     for (const gltf::PlacedNode& placed : nodes) {
-        gltf::find_camera(file, node_of(file, placed), placed.to_world, cameras);
+        gltf::find_camera(file, placed, cameras);
     }
     return cameras;
 }
@@ -42,7 +42,7 @@ void add_still_camera(gltf::GltfFile& file, std::vector<tinygltf::Node> nodes_at
     file.model.nodes.swap(nodes_at_rest);
     add_meshes(file, gltf::place_nodes(file), materials, rest, notes);
     file.model.nodes.swap(nodes_at_rest);
-    add_default_camera(rest, notes);
+    add_default_camera(rest, false, notes);
     scene.camera = rest.camera;
 }
 
@@ -75,7 +75,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     } else if (options.moment) {
         add_still_camera(file, std::move(nodes_at_rest), materials, scene, notes);
     } else {
-        add_default_camera(scene, notes);
+        add_default_camera(scene, options.overrides.origin.has_value(), notes);
     }
     if (!options.overrides.bring_light()) {
         // A file with a camera is a scene, which surfaces that shine light. Without one it is a model, of

@@ -14,6 +14,8 @@ namespace {
 /// Lumens per watt of green light, which exporters take for the ratio of photometric and radiometric units.
 constexpr double kLumensPerWatt = 683;
 constexpr int kUsualHeight = 480;
+/// Exporters round π/2 up to single precision.
+constexpr double kWidestCone = std::numbers::pi / 2 + 1e-6;
 
 /// The light's intensity in W/sr, or its irradiance in W/m² if it is directional.
 Vec3 strength_of(const tinygltf::Light& light) {
@@ -40,8 +42,8 @@ Emitter spot_emitter(const PlacedLight& placed) {
     Emitter emitter = point_emitter(placed);
     emitter.type = NEARLIGHT_EMITTER_SPOT;
     emitter.direction = forward(placed.to_world);
-    const double widest = std::numbers::pi / 2;
-    emitter.cutoff_angle = static_cast<float>(std::clamp(placed.light->spot.outerConeAngle, 1e-3, widest));
+    emitter.cutoff_angle =
+        static_cast<float>(std::clamp(placed.light->spot.outerConeAngle, 1e-3, std::numbers::pi / 2));
     emitter.beam_angle =
         std::clamp(static_cast<float>(placed.light->spot.innerConeAngle), 0.0f, emitter.cutoff_angle);
     return emitter;
@@ -53,6 +55,26 @@ Emitter directional_emitter(const PlacedLight& placed) {
     emitter.direction = forward(placed.to_world);
     emitter.radiance = strength_of(*placed.light);
     return emitter;
+}
+
+/// Notes numbers that a light may not have, and what becomes of them.
+void note_odd_numbers(const GltfFile& file, const tinygltf::Light& light, NoteSink& notes) {
+    const std::string name = "light '" + light.name + "' has ";
+    if (light.intensity < 0 || std::ranges::any_of(light.color, [](double c) { return c < 0; })) {
+        notes.approximation(file.path, 0, name + "an intensity or colour below 0, which counts as 0");
+    }
+    if (light.type != "spot") {
+        return;
+    }
+    if (!(light.spot.outerConeAngle > 0 && light.spot.outerConeAngle <= kWidestCone)) {
+        notes.approximation(file.path, 0,
+                            name + "an outerConeAngle that is not between 0 and π/2, and is limited");
+    }
+    if (!(light.spot.innerConeAngle >= 0 && light.spot.innerConeAngle < light.spot.outerConeAngle)) {
+        notes.approximation(
+            file.path, 0,
+            name + "an innerConeAngle that is not between 0 and its outerConeAngle, and is limited");
+    }
 }
 
 /// The transform of a SceneCamera, which looks along +Z with +X to the left, and has no scale.
@@ -112,9 +134,13 @@ void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to
     }
 }
 
-void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-                 std::vector<PlacedCamera>& cameras) {
+void find_camera(const GltfFile& file, const PlacedNode& placed, std::vector<PlacedCamera>& cameras) {
+    const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(placed.index)];
     if (node.camera >= 0) {
+        Mat4 to_world = placed.turn;
+        for (int row = 0; row < 3; ++row) {
+            to_world(row, 3) = placed.to_world(row, 3);
+        }
         cameras.push_back({&file.at(file.model.cameras, node.camera, "camera", "node '" + node.name + "'"),
                            node.name, to_world});
     }
@@ -125,6 +151,7 @@ void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Sc
         if (!is_finite(strength_of(*placed.light))) {
             file.fail("the intensity of light '" + placed.light->name + "' is not finite");
         }
+        note_odd_numbers(file, *placed.light, notes);
         if (placed.light->type == "point") {
             scene.delta_emitters.push_back(point_emitter(placed));
         } else if (placed.light->type == "spot") {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/scene/gltf/gltf_file.h"
+#include "host/scene/gltf/nodes.h"
 #include "host/scene/scene.h"
 
 namespace nearlight::core::gltf {
@@ -15,19 +16,18 @@ struct PlacedLight {
     const tinygltf::Light* light = nullptr;
     Mat4 to_world;
 };
-/// A camera as it stands in the scene; it looks along the −Z axis of its node.
+/// A camera as it stands in the scene; it looks along the −Z axis of its node. No scale changes it.
 struct PlacedCamera {
     const tinygltf::Camera* camera = nullptr;
     std::string node;  ///< name of its node
-    Mat4 to_world;
+    Mat4 to_world;     ///< without scale, unless the matrix of a node is singular
 };
 
 /// Adds the node's light, if it has one, to `lights`.
 void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
                 std::vector<PlacedLight>& lights);
 /// Adds the node's camera, if it has one, to `cameras`.
-void find_camera(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-                 std::vector<PlacedCamera>& cameras);
+void find_camera(const GltfFile& file, const PlacedNode& placed, std::vector<PlacedCamera>& cameras);
 
 /// Adds the lights in the order of their nodes.
 void add_lights(const GltfFile& file, const std::vector<PlacedLight>& lights, Scene& scene, NoteSink& notes);

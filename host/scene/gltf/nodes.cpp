@@ -36,6 +36,22 @@ Mat4 quaternion_rotation(const std::vector<double>& quaternion) {
                  : Mat4{};
 }
 
+/// The rotation of a node's transform. A matrix does not tell which axes it mirrors; it counts as one that
+/// mirrors X. What has no rotation, because it maps an axis to a point, is left as it is.
+Mat4 turn_of(const tinygltf::Node& node, const Mat4& transform) {
+    if (node.matrix.size() != 16) {
+        return node.rotation.size() == 4 ? quaternion_rotation(node.rotation) : Mat4{};
+    }
+    Mat4 turn;
+    for (int column = 0; column < 3; ++column) {
+        const double l = std::hypot(transform(0, column), transform(1, column), transform(2, column));
+        for (int row = 0; row < 3; ++row) {
+            turn(row, column) = transform(row, column) / (l > 0 ? l : 1.0);
+        }
+    }
+    return linear_determinant(turn) < 0 ? turn * scaling(-1, 1, 1) : turn;
+}
+
 bool is_hidden(const tinygltf::Node& node) {
     const auto found = node.extensions.find("KHR_node_visibility");
     if (found == node.extensions.end() || !found->second.Has("visible")) {
@@ -51,14 +67,14 @@ std::vector<PlacedNode> place_below(const GltfFile& file, const std::vector<int>
     std::vector<PlacedNode> placed;
     std::vector<bool> visited(file.model.nodes.size());
     std::vector<PlacedNode> open;
-    const auto add_in_order = [&](const std::vector<int>& nodes, const Mat4& parent) {
+    const auto add_in_order = [&](const std::vector<int>& nodes, const Mat4& parent, const Mat4& turn) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            open.push_back({*node, parent});
+            open.push_back({*node, parent, turn});
         }
     };
-    add_in_order(roots, {});
+    add_in_order(roots, {}, {});
     while (!open.empty()) {
-        const auto [index, parent] = open.back();
+        const auto [index, parent, turn] = open.back();
         open.pop_back();
         const tinygltf::Node& node = file.at(file.model.nodes, index, "node", "a scene or node");
         if (visited[static_cast<std::size_t>(index)]) {
@@ -68,8 +84,9 @@ std::vector<PlacedNode> place_below(const GltfFile& file, const std::vector<int>
         if (is_hidden(node) && !with_hidden) {
             continue;
         }
-        placed.push_back({index, parent * transform_of(file, node)});
-        add_in_order(node.children, placed.back().to_world);
+        const Mat4 own = transform_of(file, node);
+        placed.push_back({index, parent * own, turn * turn_of(node, own)});
+        add_in_order(node.children, placed.back().to_world, placed.back().turn);
     }
     return placed;
 }

@@ -12,6 +12,8 @@ namespace nearlight::core::gltf {
 struct PlacedNode {
     int index = 0;  ///< into Model::nodes
     Mat4 to_world;
+    /// The rotations of the node and of those above it, without their scales. Cameras stand so.
+    Mat4 turn;
 };
 
 /// The transform of a node to its parent. Calls fail() if it is not finite.

@@ -12,11 +12,12 @@
 namespace nearlight::core::gltf {
 namespace {
 
-/// The image's name, with the extension of its kind if it is no file.
-std::string name_of(const tinygltf::Image& image) {
-    const bool is_webp = image.mimeType == "image/webp";
-    const std::string kind = image.mimeType == "image/jpeg" ? ".jpg" : is_webp ? ".webp" : ".png";
-    return !image.uri.empty() ? image.uri : (image.name.empty() ? "image" : image.name) + kind;
+/// What messages call an image that has no file of its own.
+std::string name_of(const GltfFile& file, const tinygltf::Image& image) {
+    const auto index = &image - file.model.images.data();
+    const std::string name = image.name.empty() ? "" : " (" + image.name + ")";
+    return file.path.string() + ", image " + std::to_string(index) + name +
+           (image.bufferView >= 0 ? " in a buffer" : " in a data URI");
 }
 
 /// Where the image is read from. Calls fail() if it is in a buffer view that does not exist.
@@ -28,7 +29,7 @@ ImageSource source_of(const GltfFile& file, const tinygltf::Image& image) {
     if (!image.uri.empty()) {
         return {.file = file.path.parent_path() / decoded_uri(image.uri)};
     }
-    return {.file = name_of(image),
+    return {.file = name_of(file, image),
             .bytes = image.bufferView >= 0 ? bytes_of(file, image.bufferView)
                                            : std::as_bytes(std::span(image.image))};
 }
