@@ -45,6 +45,37 @@ std::array<Vec3, 3> corner_normals(const Scene& scene, std::size_t triangle) {
     return {scene.vertices[t.v0].normal, scene.vertices[t.v1].normal, scene.vertices[t.v2].normal};
 }
 
+TEST(Obj, NumbersThatCannotBeReadAreNoted) {
+    const SceneFiles files;
+    const std::string faces = "f 1 2 3\n";
+    for (const char* line : {"v 0 1,5 0\n", "v abc 1 0\n", "v nan 1 0\n", "v 0 inf 0\n", "v 0 1\n"}) {
+        const Scene scene = load_obj(files, std::string("v 0 0 0\nv 1 0 0\n") + line + "v 0 1 0\nf 1 2 4\n");
+        EXPECT_TRUE(has_note(scene, "m.obj:3: `v`, `vn` or `vt` without the decimal numbers")) << line;
+    }
+    const Scene odd = load_obj(files, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -nan(ind)\nvt\n" + faces);
+    EXPECT_TRUE(
+        has_note(odd, "m.obj:4: `v`, `vn` or `vt` without the decimal numbers that it needs, in 2 lines"));
+    const Scene good =
+        load_obj(files, " v +0 0. 0e-3\t# origin\nv 1 0 0 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0\nvp x\n" + faces);
+    EXPECT_FALSE(has_note(good, "decimal numbers"));
+}
+
+TEST(Obj, EmptyFieldsOfFacesAreNoReferences) {
+    const SceneFiles files;
+    const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 -1\n";
+    for (const char* face :
+         {"f 1 2 3\n", "f 1// 2// 3//\n", "f 1/ 2/ 3/\n", "f 1// 2//\t3//", "f 1/ 2// 3\r\n"}) {
+        const Scene scene = load_obj(files, start + face);
+        ASSERT_EQ(scene.triangles.size(), 1u) << face;
+        EXPECT_FALSE(has_note(scene, "refers to a normal")) << face;
+        expect_near(corner_normals(scene, 0)[0], corner_normals(load_obj(files, start + "f 1 2 3\n"), 0)[0]);
+    }
+    for (const char* face : {"f 1 2 x\n", "f 0 1 2\n"}) {
+        EXPECT_TRUE(mentions(file_error([&] { load_obj(files, start + face); }), "vertices count from 1"))
+            << face;
+    }
+}
+
 /// Two squares that meet at the x axis, the second one turned up by an angle.
 std::string folded(float degrees, const std::string& first = "", const std::string& second = "") {
     const float angle = degrees_to_radians(degrees);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/obj/obj_extras.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -48,6 +49,40 @@ uint group_of(const std::string& word) {
     return error == std::errc() ? group : 1;
 }
 
+/// How many words a line has behind its first, if they are decimal numbers alone; 0 if they are not.
+std::size_t number_count(std::string_view line) {
+    std::size_t count = 0;
+    bool in_word = false;
+    for (const char c : line) {
+        const bool is_blank = c == ' ' || c == '\t' || c == '\r';
+        const bool is_of_number =
+            (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+        if (!is_blank && !is_of_number) {
+            return 0;
+        }
+        count += !is_blank && !in_word ? 1 : 0;
+        in_word = !is_blank;
+    }
+    return count;
+}
+
+/// Blanks slashes of faces that no number follows; tinyobjloader would take the next corner's for theirs.
+void blank_empty_fields(std::string& text) {
+    std::size_t begin = 0;
+    for_each_line(std::string(text), [&](int, std::string_view line) {
+        if (starts_with_word(line, "f")) {
+            for (std::size_t i = line.size(); i-- > 0;) {
+                const char next = i + 1 < line.size() ? text[begin + i + 1] : ' ';
+                if (line[i] == '/' && (next == ' ' || next == '\t' || next == '\r')) {
+                    text[begin + i] = ' ';
+                }
+            }
+        }
+        begin += line.size() + 1;
+        return true;
+    });
+}
+
 }  // namespace
 
 void tidy_lines(std::string& text) {
@@ -80,6 +115,30 @@ void tidy_lines(std::string& text) {
     if (taken > 0) {
         text = joined.append(text, taken);
     }
+    if (text.find("/ ") != std::string::npos || text.find("/\t") != std::string::npos ||
+        text.find("/\r") != std::string::npos || text.find("/\n") != std::string::npos ||
+        text.ends_with('/')) {
+        blank_empty_fields(text);
+    }
+}
+
+OddNumbers odd_numbers(std::string_view text) {
+    OddNumbers odd;
+    for_each_line(text, [&](int number, std::string_view line) {
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (!line.starts_with('v')) {
+            return true;
+        }
+        const std::string_view word = first_word(line);
+        const std::size_t needed = word == "v" || word == "vn" ? 3 : word == "vt" ? 1 : 0;
+        line.remove_prefix(word.size());
+        line = line.substr(0, line.find('#'));
+        if (needed > 0 && number_count(line) < needed) {
+            odd.first_line = odd.lines++ == 0 ? number : odd.first_line;
+        }
+        return true;
+    });
+    return odd;
 }
 
 std::vector<SmoothingRun> smoothing_runs(std::string_view text) {

@@ -216,10 +216,14 @@ class ObjBuilder {
     uint position_of(int index) const {
         const uint place = place_of(index, positions.size());
         if (place == kNoIndex) {
-            throw Error(ErrorKind::file,
-                        obj_.mesh.source.string() + ":" + std::to_string(line_of_face(obj_.text, faces_)) +
-                            ": face refers to vertex " + std::to_string(index) + ", but there are only " +
-                            std::to_string(positions.size()) + " so far");
+            throw Error(
+                ErrorKind::file,
+                obj_.mesh.source.string() + ":" + std::to_string(line_of_face(obj_.text, faces_)) +
+                    (index == 0
+                         ? ": face refers to vertex 0 or to something that is no whole number; "
+                           "vertices count from 1"
+                         : ": face refers to vertex " + std::to_string(index) + ", but there are only " +
+                               std::to_string(positions.size()) + " so far"));
         }
         return place;
     }
@@ -313,6 +317,7 @@ ObjFile read_obj(const std::filesystem::path& file, ObjUse use, std::optional<in
     for (const auto& [name, line] : lines_by_value(obj.text, "mtllib")) {
         obj.libraries.emplace(line.number, name);
     }
+    obj.odd_numbers = odd_numbers(obj.text);
     obj.has_other_elements = use == ObjUse::scene && has_other_elements(obj.text);
     ObjBuilder builder(obj, use, faces_of_mesh(obj, mesh));
     TextBuffer buffer(obj.text);
@@ -334,6 +339,12 @@ void note_what_is_left_out(const ObjFile& obj, NoteSink& notes) {
         notes.approximation(
             obj.mesh.source, 0,
             std::to_string(obj.short_faces) + " faces with fewer than three corners are left out");
+    }
+    if (obj.odd_numbers.lines > 0) {
+        notes.approximation(obj.mesh.source, obj.odd_numbers.first_line,
+                            "`v`, `vn` or `vt` without the decimal numbers that it needs, in " +
+                                std::to_string(obj.odd_numbers.lines) +
+                                " lines of the file; what cannot be read counts as 0");
     }
     if (obj.first_lost_attribute > 0) {
         notes.approximation(

@@ -10,6 +10,7 @@
 
 #include "host/scene/mesh.h"
 #include "host/scene/note_sink.h"
+#include "host/scene/obj/obj_extras.h"
 
 namespace nearlight::core {
 
@@ -33,6 +34,7 @@ struct ObjFile {
     /// The line of the first face with a normal or texture coordinate that the file does not have before it,
     /// which its corners do without; 0 if there is none.
     int first_lost_attribute = 0;
+    OddNumbers odd_numbers{};
     /// Points, lines or free-form surfaces were left out. Always false for shapes of Mitsuba, which leaves
     /// them out, too.
     bool has_other_elements = false;
