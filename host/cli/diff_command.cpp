@@ -8,6 +8,7 @@
 
 #include "host/cli/log.h"
 #include "host/cli/output.h"
+#include "host/cli/picture_files.h"
 #include "host/compare/number_text.h"
 #include "host/image/image_io.h"
 #include "host/image/metrics.h"
@@ -84,6 +85,9 @@ std::string to_table(const std::vector<LayerDifference>& differences) {
 }
 
 ExitCode run_diff(const DiffOptions& options, const GlobalOptions& global) {
+    if (!options.map.empty()) {
+        check_writable(options.map.string());
+    }
     const Image a = read_linear_image(options.image);
     const Image b = read_linear_image(options.reference);
     if (a.width != b.width || a.height != b.height) {

@@ -258,8 +258,8 @@ ExitCode run_merge(const MergeOptions& options, const GlobalOptions& global) {
     if (global.json) {
         print_json(merge_json(options, merged, error, hash));
     }
-    spdlog::info("{} passes of {} files{}", all_samples(merged.record).size(), parts.size(),
-                 error ? fmt::format(", error {:.4f}", *error) : "");
+    spdlog::info("{} passes of {} file{}{}", all_samples(merged.record).size(), parts.size(),
+                 parts.size() == 1 ? "" : "s", error ? fmt::format(", error {:.4f}", *error) : "");
     for (const std::string& output : options.picture.outputs) {
         spdlog::info("wrote {}", output);
     }

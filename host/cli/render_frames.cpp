@@ -137,10 +137,12 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
             }
             go_to(walk, run, options, frame);
             if (frame == frames.front() && has_screen_pictures(options.picture) && !run.look().exposure) {
-                run.options.picture.screen.exposure = fmt::format("{}", shared_exposure(walk, run, options));
+                const float exposure = shared_exposure(walk, run, options);
                 if (interrupted()) {
                     break;
                 }
+                run.options.picture.screen.exposure = fmt::format("{}", exposure);
+                spdlog::info("exposure {:+.2f} stops (automatic) in all frames", exposure);
             }
             sinks.picture.set_outputs(run.options.picture.outputs);
             sinks.first_rows = {};

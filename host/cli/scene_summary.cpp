@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "host/base/printable.h"
 #include "host/base/words.h"
@@ -278,12 +279,16 @@ std::string text_animations(const Scene& scene) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
+    std::set<uint> used;  // others are parts of these, or no triangle has them
+    for (const Triangle& triangle : scene.triangles) {
+        used.insert(triangle.material);
+    }
     std::vector<std::pair<std::string, std::size_t>> counts;
     for (const char* kind : {"diffuse", "coated", "glossy", "metal", "glass", "thin glass", "principled",
                              "blend", "invisible"}) {
-        const auto count = std::count_if(
-            scene.materials.begin(), scene.materials.end(),
-            [&](const Material& material) { return std::string_view(kind_of(scene, material)) == kind; });
+        const auto count = std::ranges::count_if(used, [&](uint material) {
+            return std::string_view(kind_of(scene, scene.materials[material])) == kind;
+        });
         if (count > 0) {
             counts.emplace_back(kind, static_cast<std::size_t>(count));
         }

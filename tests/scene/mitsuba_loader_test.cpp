@@ -325,7 +325,7 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<shape type='sphere'><string name='radius' value='1'/></shape>", "should be a number"},
         {"<shape type='cube'><float name='x' value='$x'/></shape>", "parameter '$x' has no value"},
         {"<include filename='gone.xml'/>", "cannot be read"},
-        {"<include filename='scene.xml'/>", "endlessly"},
+        {"<include filename='scene.xml'/>", "includes itself"},
         {"<path value='gone'/>", "gone' does not exist"},
         {"<path value='broken.obj'/>", "broken.obj' does not exist"},
         {"<path/>", "needs an attribute 'value'"},

@@ -78,7 +78,7 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         if (scene.environment.width > 0) {
             fail(emitter.where, "a scene can have only one environment");
         }
-        emitter.ignore({"cache"});
+        emitter.ignore({"cache", "mis_compensation"});
         scene.environment =
             is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
         scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where);

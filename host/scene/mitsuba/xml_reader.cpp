@@ -51,6 +51,8 @@ class Reader {
 
     Document read_scene(const std::filesystem::path& path) {
         const XmlFile file(path);
+        std::error_code ignored;
+        open_files_ = {std::filesystem::weakly_canonical(path, ignored)};
         if (file.root().name() != std::string("scene")) {
             fail(file.location(file.root()), "not a Mitsuba scene: the outermost element should be <scene>");
         }
@@ -142,13 +144,15 @@ class Reader {
     }
 
     void include(const std::filesystem::path& path, const Element& element, Object& parent, int depth) {
-        if (depth > kMaxXmlDepth) {
-            fail(element.where, "files include each other endlessly");
-        }
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(path, ignored)) {
             fail(element.where, "included file '" + path.string() + "' cannot be read");
         }
+        const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, ignored);
+        if (std::ranges::find(open_files_, canonical) != open_files_.end()) {
+            fail(element.where, "'" + path.string() + "' includes itself");
+        }
+        open_files_.push_back(canonical);
         const XmlFile file(path, element.is_old);
         if (file.root().name() == std::string("scene")) {
             read_children(file, file.root(), parent, depth + 1);
@@ -156,6 +160,7 @@ class Reader {
             read_child(file, {file.root(), file.location(file.root()), definitions_, file.is_old()}, parent,
                        depth + 1);
         }
+        open_files_.pop_back();
     }
 
     void add_folder(const Element& element, const Object& parent) {
@@ -285,6 +290,7 @@ class Reader {
     }
 
     FileSearch files_;
+    std::vector<std::filesystem::path> open_files_;  // the scene's file, and those that include one another
     Definitions definitions_;
     NoteSink& notes_;
     Document document_;
