@@ -48,6 +48,17 @@ TEST_F(GltfLoader, Materials) {
     EXPECT_NE(side_of(load()).curve, 0u);
 }
 
+TEST_F(GltfLoader, WhatAMaterialMayNotSayIsNoted) {
+    gltf_.material()["name"] = "paint";
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0, 1, 1}}};
+    gltf_.material()["alphaMode"] = "BLEND";
+    EXPECT_FALSE(has_note(load(), "material 'paint'"));
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {2, 0.5, -1, 1}}};
+    EXPECT_TRUE(has_note(load(), "material 'paint' has factors that are not between 0 and 1"));
+    gltf_.material()["alphaMode"] = "DITHER";
+    EXPECT_TRUE(has_note(load(), "material 'paint' has the unknown alphaMode 'DITHER'"));
+}
+
 TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {
     gltf_.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
                         {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.25}}}}}};

@@ -223,6 +223,15 @@ TEST(Obj, StatementsThatAreLeftOutAreNotedOnce) {
                          "m.mtl:7: statement 'refl'"));
 }
 
+TEST(Obj, StatementsWithoutTheirNumberAreNoted) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl m\nKd red\nNs 10\nd -halo 1\nmap_Kd t.png\nillum\n");
+    const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    EXPECT_TRUE(has_note(scene, "m.mtl:2: statement 'Kd' without a number"));
+    EXPECT_FALSE(has_note(scene, "'Ns' without"));
+    EXPECT_FALSE(has_note(scene, "'d' without"));
+}
+
 TEST(Obj, MirrorsReflectKsAndScatterKd) {
     const SceneFiles files;
     files.write("m.mtl", "newmtl m\nKd 0.2 0.1 0\nKs 0.4 0.5 0.5\nillum 3\n");

@@ -119,7 +119,23 @@ uint MaterialMaker::add_normal_map(const tinygltf::Material& source, const Surfa
     return normals.texture < 0 ? child : add(normal_map_material(normals, child));
 }
 
+/// Notes what a material may not say, and what becomes of it.
+void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
+    const auto is_part = [](double factor) { return factor >= 0.0 && factor <= 1.0; };
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    if (!std::ranges::all_of(pbr.baseColorFactor, is_part) || !is_part(pbr.metallicFactor) ||
+        !is_part(pbr.roughnessFactor)) {
+        approximate("material '" + source.name +
+                    "' has factors that are not between 0 and 1, and are limited");
+    }
+    if (source.alphaMode != "OPAQUE" && source.alphaMode != "MASK" && source.alphaMode != "BLEND") {
+        approximate("material '" + source.name + "' has the unknown alphaMode '" + source.alphaMode +
+                    "', and is opaque");
+    }
+}
+
 uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& use) {
+    note_odd_values(source);
     const SurfaceContext context{file_,          textures_,      notes_,   texture_sets(use.index),
                                  use.has_colors, use.has_alphas, use.scale};
     const SurfaceModel surface = read_surface(source, context);

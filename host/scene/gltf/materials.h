@@ -51,6 +51,7 @@ class MaterialMaker {
     [[nodiscard]] const tinygltf::Material& source_of(int index) const {
         return file_.at(file_.model.materials, index, "material", "a mesh");
     }
+    void note_odd_values(const tinygltf::Material& source);
     [[nodiscard]] uint make(const tinygltf::Material& source, const MaterialUse& use);
     [[nodiscard]] uint add_opaque(const SurfaceModel& surface);
     [[nodiscard]] uint add_glass(const SurfaceModel& surface);

@@ -25,6 +25,10 @@ constexpr std::string_view kStatements[] = {
     "anisor", "map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_d",    "map_Tr",  "map_Bump", "bump",
     "norm",   "map_Ns", "map_Pr", "map_Pm", "disp",   "map_Disp", "map_aat", "sharpness"};
 
+/// Statements that begin with a number.
+constexpr std::string_view kNumberStatements[] = {"Kd", "Ks", "Ke", "Kt",    "Tf", "Tr",
+                                                  "d",  "Ns", "Ni", "illum", "Pr", "Pm"};
+
 /// Spells the words that lines begin with as tinyobjloader knows them, because programs differ in the case of
 /// letters, and puts a blank behind them, where some have a tab.
 void tidy_statements(std::string& text) {
@@ -219,6 +223,12 @@ void note_unknown_statements(const MaterialLibrary& library, TextLine begin, Not
             !value_after(line, word).empty()) {
             notes.approximation(library.file, begin.number + number - 1,
                                 "statement '" + std::string(word) + "' of OBJ materials is left out");
+        }
+        const std::string value = value_after(line, word);
+        if (std::ranges::find(kNumberStatements, word) != std::end(kNumberStatements) &&
+            !is_number(std::string(first_word(value)))) {
+            notes.approximation(library.file, begin.number + number - 1,
+                                "statement '" + std::string(word) + "' without a number, which counts as 0");
         }
         return true;
     });

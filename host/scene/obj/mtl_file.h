@@ -39,7 +39,8 @@ struct MaterialLibrary {
 std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes);
 
 /// Notes each kind of statement that the entry at `begin` has and that is left out although it may change the
-/// look. What has a note of its own (displacement, sheen, clear coat, anisotropy, map_Ns) is not among them.
+/// look, or that lacks its number. What has a note of its own (displacement, sheen, clear coat, anisotropy,
+/// map_Ns) is not among them.
 void note_unknown_statements(const MaterialLibrary& library, TextLine begin, NoteSink& notes);
 
 }  // namespace nearlight::core
