@@ -18,7 +18,7 @@ void add_vpl_options(CLI::App& command, VplFiles& files) {
             .add_option(
                 "--load-vpls", files.load,
                 "Take the VPLs of this PLY file instead of making some, as for another camera in the same "
-                "scene")
+                "scene; excludes the options that say how VPLs are made")
             ->type_name("FILE");
     for (const char* option :
          {"--sampler", "--policy", "--vpls", "--cuts", "--vpl-set", "--close-fraction"}) {
