@@ -21,21 +21,6 @@ Vec3 unit_direction(const std::array<double, 3>& v) {
     return {static_cast<float>(v[0] / l), static_cast<float>(v[1] / l), static_cast<float>(v[2] / l)};
 }
 
-// The cofactor matrix serves where the inverse transpose does, and also where the transform flattens space.
-Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {
-    const auto cofactor = [&](int r, int c) {
-        const int r1 = (r + 1) % 3;
-        const int r2 = (r + 2) % 3;
-        const int c1 = (c + 1) % 3;
-        const int c2 = (c + 2) % 3;
-        return m(r1, c1) * m(r2, c2) - m(r1, c2) * m(r2, c1);
-    };
-    const auto row = [&](int r) {
-        return sign * (cofactor(r, 0) * n.x + cofactor(r, 1) * n.y + cofactor(r, 2) * n.z);
-    };
-    return unit_direction({row(0), row(1), row(2)});
-}
-
 std::vector<Vec3> world_normals(const Mesh& mesh, const MeshPlacement& placement,
                                 std::span<const Vec3> positions) {
     if (placement.face_normals) {
@@ -207,6 +192,21 @@ void append_placed(Scene& scene, const Mesh& mesh, std::span<const Vec3> positio
 }
 
 }  // namespace
+
+// The cofactor matrix serves where the inverse transpose does, and also where the transform flattens space.
+Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {
+    const auto cofactor = [&](int r, int c) {
+        const int r1 = (r + 1) % 3;
+        const int r2 = (r + 2) % 3;
+        const int c1 = (c + 1) % 3;
+        const int c2 = (c + 2) % 3;
+        return m(r1, c1) * m(r2, c2) - m(r1, c2) * m(r2, c1);
+    };
+    const auto row = [&](int r) {
+        return sign * (cofactor(r, 0) * n.x + cofactor(r, 1) * n.y + cofactor(r, 2) * n.z);
+    };
+    return unit_direction({row(0), row(1), row(2)});
+}
 
 std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<const Indices> triangles) {
     std::vector<Vec3> normals(positions.size(), Vec3{0, 0, 0});

@@ -50,6 +50,10 @@ struct MeshPlacement {
 /// range.
 void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement, NoteSink& notes);
 
+/// The unit normal of a surface that m transforms, where n was its normal; `sign` is −1 where m mirrors, so
+/// that the normal stays on its side. 0 if it is lost.
+Vec3 transform_normal(const Mat4& m, double sign, Vec3 n);
+
 /// Whether the surface, or that of the triangles of a group, has no border, and therefore no back that could
 /// be seen. Corners at the same place count as one.
 bool is_closed(const Mesh& mesh, std::optional<uint> group = {});

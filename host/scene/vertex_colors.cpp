@@ -66,20 +66,23 @@ void finish_vertex_colors(Scene& scene, NoteSink& notes) {
         return;
     }
     scene.vertex_colors.resize(scene.vertices.size(), kNoColor);
+    bool is_missing = false;
+    bool is_bright = false;
     for (const Triangle& triangle : scene.triangles) {
         const float scale = scales[triangle.material];
         for (const uint vertex : {triangle.v0, triangle.v1, triangle.v2}) {
             const Vec3 color = scene.vertex_colors[vertex];
-            if (scale > 0.0f && color == kNoColor) {
-                notes.approximation(
-                    scene.source, 0,
-                    "a texture asks for colours of vertices, but the mesh has none; white is used");
-            } else if (max_component(color) * scale > 1.0f) {
-                notes.remark(
-                    scene.source, 0,
-                    "colours of vertices are above 1; surfaces reflect more light than they receive");
-            }
+            is_missing = is_missing || (scale > 0.0f && color == kNoColor);
+            is_bright = is_bright || max_component(color) * scale > 1.0f;
         }
+    }
+    if (is_missing) {
+        notes.approximation(scene.source, 0,
+                            "a texture asks for colours of vertices, but the mesh has none; white is used");
+    }
+    if (is_bright) {
+        notes.remark(scene.source, 0,
+                     "colours of vertices are above 1; surfaces reflect more light than they receive");
     }
     std::ranges::replace(scene.vertex_colors, kNoColor, Vec3{1, 1, 1});
 }

@@ -41,6 +41,27 @@ TEST_F(GltfLoader, SkinsStandAsTheirJointsDo) {
     EXPECT_THAT(error(), HasSubstr("node 77"));
 }
 
+/// A joint that stretches a mesh turns its normals as a node that does.
+TEST_F(GltfLoader, NormalsOfStretchedSkinsStayNormal) {
+    const float half = std::sqrt(0.5f);
+    json& attributes = gltf_.primitive()["attributes"];
+    attributes["NORMAL"] = gltf_.points({half, 0, half, half, 0, half, half, 0, half, half, 0, half});
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"scale", {1, 1, 4}}}};
+    const Scene by_node = load();
+    attributes["JOINTS_0"] = gltf_.accessor(std::vector<std::uint8_t>(16, 0), 5121, "VEC4", 4);
+    attributes["WEIGHTS_0"] =
+        gltf_.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+    gltf_.root["skins"] = {{{"joints", {1}}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"scale", {1, 1, 4}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    const Scene by_joint = load();
+    ASSERT_EQ(by_joint.vertices.size(), by_node.vertices.size());
+    for (std::size_t i = 0; i < by_node.vertices.size(); ++i) {
+        expect_close(by_node.vertices[i].normal, {4 / std::sqrt(17.0f), 0, 1 / std::sqrt(17.0f)});
+        expect_close(by_joint.vertices[i].normal, by_node.vertices[i].normal);
+    }
+}
+
 TEST_F(GltfLoader, MorphTargetsHaveTheWeightsOfTheNodeOrTheMesh) {
     gltf_.primitive()["targets"] = {{{"POSITION", gltf_.points({0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4})}},
                                     {{"POSITION", gltf_.points({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0})}}};

@@ -57,6 +57,17 @@ TEST_F(GltfLoader, WhatAMaterialMayNotSayIsNoted) {
     EXPECT_TRUE(has_note(load(), "material 'paint' has factors that are not between 0 and 1"));
     gltf_.material()["alphaMode"] = "DITHER";
     EXPECT_TRUE(has_note(load(), "material 'paint' has the unknown alphaMode 'DITHER'"));
+    gltf_.material()["emissiveFactor"] = {1, 1, 1};
+    gltf_.material()["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", -5}}},
+                                      {"KHR_materials_ior", {{"ior", 0.5}}},
+                                      {"KHR_materials_clearcoat", {{"clearcoatFactor", 7}}}};
+    const Scene scene = load();
+    EXPECT_TRUE(has_note(scene, "an emission below 0"));
+    EXPECT_TRUE(has_note(scene, "an index (ior) below 1"));
+    EXPECT_TRUE(has_note(scene, "a clearcoatFactor that is not between 0 and 1"));
+    for (const Material& material : scene.materials) {
+        EXPECT_GE(material.emission.value.x, 0.0f);
+    }
 }
 
 TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {

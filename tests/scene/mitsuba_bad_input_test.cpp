@@ -94,6 +94,26 @@ TEST_F(MitsubaBadInput, BadEnvironmentsGetOneWarning) {
     EXPECT_EQ(notes_on_line_2("the environment is black"), 1u);
 }
 
+TEST_F(MitsubaBadInput, EnvironmentsAreTurnedAndNotSheared) {
+    const auto turn_by = [&](const std::string& matrix) {
+        scene_ = files_.load_xml("<emitter type='constant'><transform name='to_world'><matrix value='" +
+                                 matrix + "'/></transform></emitter>");
+        return scene_.environment.to_world;
+    };
+    const Mat4 turn = turn_by("1 0.5 0.2 9  0 1 0.7 9  0 0 -2 9  0 0 0 1");
+    EXPECT_EQ(notes_on_line_2("the to_world of an environment shears"), 1u);
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+            const double product =
+                turn(0, a) * turn(0, b) + turn(1, a) * turn(1, b) + turn(2, a) * turn(2, b);
+            EXPECT_NEAR(product, a == b ? 1 : 0, 1e-12);
+        }
+    }
+    EXPECT_LT(turn(2, 2), 0) << "what mirrors goes on to mirror";
+    turn_by("0 0 3 9  0 3 0 9  3 0 0 9  0 0 0 1");
+    EXPECT_EQ(notes_on_line_2("shears"), 0u);
+}
+
 TEST_F(MitsubaBadInput, WhatContainsItselfIsToldAndNeitherFollowedForEverNorOffTheStack) {
     const auto message_of = [&](const std::string& body) {
         return file_error([&] { scene_ = files_.load_xml(body); });

@@ -332,6 +332,10 @@ TEST(MitsubaXml, EveryErrorNamesFileAndLine) {
         {"<shape type='cube'><path value='.'/></shape>", "directly in <scene>"},
         {"<wobble/>", "unknown element <wobble>"},
         {"<emitter type='point'><float name='power' value='1'/></emitter>", "power"},
+        {"<emitter type='point'><point name='position' x='0' y='0' z='2'/><transform name='to_world'><scale "
+         "value='2'/></transform></emitter>",
+         "either 'position' or 'to_world'"},
+        {"<emitter type='sky'><integer name='year' value='1000000000'/></emitter>", "from 1 to 9999"},
         {"<bsdf type='twosided' id='a'><ref id='a'/></bsdf><shape type='cube'><ref id='a'/></shape>",
          "itself"},
         {"<shape type='merge' id='m'><ref id='m'/></shape>", "one contains itself"},

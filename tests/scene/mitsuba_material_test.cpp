@@ -316,6 +316,8 @@ TEST_F(MitsubaMaterial, WhatIsNotSupportedIsNamed) {
          "none below 0"},
         {"<bsdf type='mask'>" + plastic + plastic + "</bsdf>", "needs one nested bsdf"},
         {"<bsdf type='conductor'>" + text("material", "Unobtainium") + "</bsdf>", "unknown metal"},
+        {"<bsdf type='conductor'>" + text("material", "Au") + number("eta", "1.5") + "</bsdf>",
+         "give either 'material' or 'eta' and 'k'"},
         {"<bsdf type='dielectric'>" + text("int_ior", "soup") + "</bsdf>", "no index of refraction"},
         {"<bsdf type='coating'>" + plastic + "</bsdf>", "only supported over diffuse bsdfs and metals"},
         {"<bsdf type='ward'>" + text("variant", "gold") + "</bsdf>", "unknown variant 'gold'"},

@@ -153,6 +153,14 @@ TEST_F(MitsubaOldMaterial, ConductorsOfOldFilesAreCopper) {
     const Material metal = scene.materials.at(scene.triangles.at(0).material);
     EXPECT_EQ(metal.eta, load("conductor", "<string name='material' value='Cu'/>").eta);
     EXPECT_FLOAT_EQ(load("conductor", "").k.x, 1.0f) << "a perfect mirror, as in Mitsuba 3";
+    // Each of eta and k replaces that of copper by itself.
+    const std::string partly =
+        "<scene version='0.6.0'>" +
+        shape("rectangle", "<bsdf type='conductor'><spectrum name='eta' value='1.5'/></bsdf>") + "</scene>\n";
+    const Scene other = load_scene(files_.write("scene.xml", partly));
+    const Material mixed = other.materials.at(other.triangles.at(0).material);
+    EXPECT_FLOAT_EQ(mixed.eta.x, 1.5f);
+    EXPECT_EQ(mixed.k, metal.k);
 }
 
 }  // namespace

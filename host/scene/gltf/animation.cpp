@@ -56,20 +56,6 @@ std::vector<std::size_t> named_animations(const GltfFile& file, const std::vecto
     return chosen;
 }
 
-/// The animation among `played` that moves one of `targets` too, and what they both move.
-std::optional<std::pair<std::size_t, Target>> rival_of(
-    const GltfFile& file, const std::vector<std::size_t>& played,
-    const std::map<Target, const tinygltf::AnimationChannel*>& targets) {
-    for (const std::size_t other : played) {
-        for (const auto& [target, channel] : targets_of(file, other)) {
-            if (targets.contains(target)) {
-                return std::pair{other, target};
-            }
-        }
-    }
-    return std::nullopt;
-}
-
 /// The animations to play. Some exporters make one for each object's motion; these belong together. Others
 /// make one for each thing that a figure can do; only one of these can be shown, which is the first.
 std::vector<std::size_t> played_animations(const GltfFile& file, const std::vector<std::string>& wanted,
@@ -79,12 +65,18 @@ std::vector<std::size_t> played_animations(const GltfFile& file, const std::vect
         candidates.push_back(i);
     }
     std::vector<std::size_t> played;
+    std::map<Target, std::size_t> movers;  // the played animation that moves each target
     for (const std::size_t candidate : candidates) {
-        const auto rival = rival_of(file, played, targets_of(file, candidate));
-        if (!rival) {
+        const auto targets = targets_of(file, candidate);
+        const auto shared =
+            std::ranges::find_if(targets, [&](const auto& entry) { return movers.contains(entry.first); });
+        if (shared == targets.end()) {
+            for (const auto& [target, channel] : targets) {
+                movers.emplace(target, candidate);
+            }
             played.push_back(candidate);
-        } else if (rival->first != candidate) {
-            const auto& [other, target] = *rival;
+        } else if (const std::size_t other = movers.at(shared->first); other != candidate) {
+            const Target& target = shared->first;
             const std::string both = animation_name(file, candidate) + " and " + animation_name(file, other) +
                                      " both move the " + target.second + " of " +
                                      name_of_node(file, target.first);

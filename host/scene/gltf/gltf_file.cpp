@@ -323,7 +323,9 @@ tinygltf::TextureInfo texture_of(const tinygltf::ExtensionMap& extensions, const
     info.texCoord = index_of(members, "", "texCoord", 0);
     if (value->Has("extensions") && value->Get("extensions").IsObject()) {
         for (const std::string& name : value->Get("extensions").Keys()) {
-            info.extensions[name] = value->Get("extensions").Get(name);
+            if (const tinygltf::Value& extension = value->Get("extensions").Get(name); extension.IsObject()) {
+                info.extensions[name] = extension;
+            }
         }
     }
     return info;

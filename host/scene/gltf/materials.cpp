@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
@@ -127,6 +128,24 @@ void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
         !is_part(pbr.roughnessFactor)) {
         approximate("material '" + source.name +
                     "' has factors that are not between 0 and 1, and are limited");
+    }
+    for (const auto& [extension, key] : {std::pair{"KHR_materials_clearcoat", "clearcoatFactor"},
+                                         {"KHR_materials_clearcoat", "clearcoatRoughnessFactor"},
+                                         {"KHR_materials_transmission", "transmissionFactor"},
+                                         {"KHR_materials_anisotropy", "anisotropyStrength"},
+                                         {"KHR_materials_specular", "specularFactor"}}) {
+        if (!is_part(number_of(source.extensions, extension, key, 0))) {
+            approximate("material '" + source.name + "' has a " + key +
+                        " that is not between 0 and 1, and is limited");
+        }
+    }
+    const double index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
+    if (index != 0 && !(index >= 1)) {
+        approximate("material '" + source.name + "' has an index (ior) below 1");
+    }
+    if (number_of(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1) < 0 ||
+        std::ranges::any_of(source.emissiveFactor, [](double factor) { return factor < 0; })) {
+        approximate("material '" + source.name + "' has an emission below 0, which counts as 0");
     }
     if (source.alphaMode != "OPAQUE" && source.alphaMode != "MASK" && source.alphaMode != "BLEND") {
         approximate("material '" + source.name + "' has the unknown alphaMode '" + source.alphaMode +

@@ -100,7 +100,8 @@ void apply_skin(const GltfFile& file, const PrimitiveData& data, const std::vect
         }
         mesh.positions[i] = transform_point(transform, mesh.positions[i]);
         if (i < mesh.normals.size()) {
-            mesh.normals[i] = normalize(transform_vector(transform, mesh.normals[i]));
+            const double sign = linear_determinant(transform) < 0 ? -1.0 : 1.0;
+            mesh.normals[i] = transform_normal(transform, sign, mesh.normals[i]);
         }
     }
 }

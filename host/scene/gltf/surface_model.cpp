@@ -115,8 +115,8 @@ TexelRule shining_rule(const tinygltf::Material& source, const Base& base) {
 Parameter emission_of(const tinygltf::Material& source, const Base& base, const SurfaceContext& context) {
     const double strength =
         number_of(source.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-    const Vec3 emission =
-        static_cast<float>(strength) * max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
+    const Vec3 emission = static_cast<float>(std::max(strength, 0.0)) *
+                          max(to_vec3(source.emissiveFactor, {0, 0, 0}), {0, 0, 0});
     if (!is_finite(emission)) {
         context.file.fail("material '" + source.name + "' emits light that is not finite");
     }

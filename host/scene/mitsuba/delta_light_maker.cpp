@@ -44,6 +44,9 @@ Emitter make_point(const Object& emitter, TextureMaker& textures) {
     Emitter light{};
     light.type = NEARLIGHT_EMITTER_POINT;
     light.radiance = emitted_color(emitter, "intensity", textures);
+    if (!emitter.is_old && emitter.has("position") && emitter.has("to_world")) {
+        fail(emitter.where, "a point light has either 'position' or 'to_world'");
+    }
     const Triple p = emitter.triple("position", {0, 0, 0});
     light.position =
         transform_point(emitter.transform("to_world"),

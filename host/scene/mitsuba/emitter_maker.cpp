@@ -2,6 +2,8 @@
 #include "host/scene/mitsuba/emitter_maker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "host/scene/mitsuba/delta_light_maker.h"
 #include "host/scene/mitsuba/sky_maker.h"
@@ -10,18 +12,33 @@
 namespace nearlight::core::mitsuba {
 namespace {
 
-// Keeps only the rotation, because an environment is infinitely far away.
-Mat4 turn_of_environment(const Mat4& m, const Location& where) {
+/// Keeps only the rotation, because an environment is infinitely far away. Each axis loses what lies along
+/// those before it.
+Mat4 turn_of_environment(const Mat4& m, const Location& where, NoteSink& notes) {
+    constexpr double kMaxSkew = 1e-3;  // of rounded numbers
     Mat4 rotation;
+    double skew = 0.0;
     for (int column = 0; column < 3; ++column) {
-        const double l = std::sqrt(m(0, column) * m(0, column) + m(1, column) * m(1, column) +
-                                   m(2, column) * m(2, column));
-        if (!(l > 0.0)) {
+        std::array<double, 3> axis{m(0, column), m(1, column), m(2, column)};
+        const double whole = std::hypot(axis[0], axis[1], axis[2]);
+        for (int other = 0; other < column; ++other) {
+            const double along =
+                rotation(0, other) * axis[0] + rotation(1, other) * axis[1] + rotation(2, other) * axis[2];
+            skew = std::max(skew, std::abs(along) / whole);
+            for (int row = 0; row < 3; ++row) {
+                axis.at(static_cast<std::size_t>(row)) -= along * rotation(row, other);
+            }
+        }
+        const double l = std::hypot(axis[0], axis[1], axis[2]);
+        if (!(l > 1e-6 * whole)) {
             fail(where, "the to_world of an environment should be a rotation");
         }
         for (int row = 0; row < 3; ++row) {
-            rotation(row, column) = m(row, column) / l;
+            rotation(row, column) = axis.at(static_cast<std::size_t>(row)) / l;
         }
+    }
+    if (skew > kMaxSkew) {
+        note(notes, where, "the to_world of an environment shears, which is left out");
     }
     return rotation;
 }
@@ -81,7 +98,7 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         emitter.ignore({"cache", "mis_compensation"});
         scene.environment =
             is_sky(emitter) ? make_sky(emitter, notes) : make_environment(emitter, textures, notes);
-        scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where);
+        scene.environment.to_world = turn_of_environment(scene.environment.to_world, emitter.where, notes);
     } else {
         fail_unknown_type(emitter,
                           "area (of a shape), point, spot, projector, directional, constant, envmap, sunsky, "

@@ -24,7 +24,7 @@ PlaceAndTime read_place_and_time(const Object& sky) {
     when.latitude = sky.number("latitude", when.latitude);
     when.longitude = sky.number("longitude", when.longitude);
     when.timezone = sky.number("timezone", when.timezone);
-    when.year = static_cast<int>(sky.number("year", when.year));
+    when.year = static_cast<int>(number_between(sky, "year", when.year, 1, 9999));
     when.month = static_cast<int>(number_between(sky, "month", when.month, 1, 12));
     when.day = static_cast<int>(number_between(sky, "day", when.day, 1, 31));
     when.hour = sky.number("hour", when.hour);

@@ -204,9 +204,11 @@ void SurfaceModels::read_metal(const Object& bsdf, Material& material) {
         fail(bsdf.find("material")->where, "unknown metal '" + name + "'; give eta and k instead");
     }
     const auto is_given = [&](const char* key) { return bsdf.has(key) || bsdf.texture(key) != nullptr; };
-    const bool given = is_given("eta") || is_given("k");
-    const Vec3 eta = given ? textures_.color(bsdf, "eta", {0, 0, 0}, false) : metal->eta;
-    const Vec3 k = given ? textures_.color(bsdf, "k", {1, 1, 1}, false) : metal->k;
+    if (!bsdf.is_old && name != "none" && (is_given("eta") || is_given("k"))) {
+        fail(bsdf.find("material")->where, "give either 'material' or 'eta' and 'k'");
+    }
+    const Vec3 eta = textures_.color(bsdf, "eta", metal->eta, false);
+    const Vec3 k = textures_.color(bsdf, "k", metal->k, false);
     const auto outside = static_cast<float>(index_of_refraction(bsdf, "ext_eta", 1.0));
     material.eta = max(eta, {0, 0, 0}) / outside;
     material.k = max(k, {0, 0, 0}) / outside;

@@ -25,10 +25,11 @@ bool is_object(const std::string& tag) {
 }
 
 bool parse_boolean(const std::string& text, const Location& where) {
-    if (text == "true" || text == "True" || text == "1") {
+    const std::string word = lower_case(text);
+    if (word == "true" || word == "1") {
         return true;
     }
-    if (text == "false" || text == "False" || text == "0") {
+    if (word == "false" || word == "0") {
         return false;
     }
     fail(where, "'" + text + "' should be true or false");
@@ -258,6 +259,11 @@ class Reader {
         }
         if (child.object->type == "d65") {
             if (const auto nested = child.object->nested("texture"); !nested.empty()) {
+                if (child.object->number("scale", 1.0) != 1.0) {
+                    note(notes_, child.where,
+                         "the 'scale' of a d65 around a texture is left out, as Mitsuba does in RGB");
+                }
+                child.object->report_unused(notes_);
                 child.object = nested.front();
             }
         }
