@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/base/hash.h"
+#include "host/base/median.h"
 #include "host/base/message.h"
 #include "host/base/receivers.h"
 #include "host/base/stopwatch.h"
@@ -126,12 +127,11 @@ void time_gather(Device& device, const Workload& work, Gatherer& gatherer) {
         seconds.push_back(watch.seconds());
     }
     seconds.erase(seconds.begin());  // the first run warms up
-    std::sort(seconds.begin(), seconds.end());
     const double pairs =
         static_cast<double>(work.receivers.size() * NEARLIGHT_PACKET_SIZE * job.vpls.count());
-    const double median = seconds[seconds.size() / 2];
-    std::printf("  %.3f s for %.1f M pairs: %.1f M pairs/s (median of %d)\n", median, pairs * 1e-6,
-                pairs / median * 1e-6, kRepeats);
+    const double middle = median(seconds);
+    std::printf("  %.3f s for %.1f M pairs: %.1f M pairs/s (median of %d)\n", middle, pairs * 1e-6,
+                pairs / middle * 1e-6, kRepeats);
 }
 
 /// Renders a picture, and checks that every pixel is finite and that not all are black.

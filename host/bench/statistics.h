@@ -2,20 +2,13 @@
 // Medians and ratios of repeated measurements.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "host/base/median.h"
 #include "host/bench/seconds.h"
 
 namespace nearlight::core {
-
-/// The median of one or more values.
-inline double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 inline double median_absolute_deviation(const std::vector<double>& values) {
     const double center = median(values);

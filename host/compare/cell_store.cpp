@@ -86,8 +86,10 @@ std::optional<Cell> CellStore::load(const CellId& id) const {
         return from_json(Json::parse(read_bytes(file)), id);
     } catch (const Json::exception&) {
         say_warning("'" + file.string() + "' is broken; measuring that cell again");
-        return std::nullopt;
+    } catch (const Error& error) {
+        say_warning(std::string(error.what()) + "; measuring that cell again");
     }
+    return std::nullopt;
 }
 
 void CellStore::save(const Cell& cell) const {

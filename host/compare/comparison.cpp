@@ -29,20 +29,22 @@ std::string conditions_of(const Device& device, const SceneFacts& facts, const R
            hex_digits(kernels_hash(device.options().kernel_dir)) + "|" + to_string(settings.bvh_quality);
 }
 
-/// The reference file that shows this scene; empty if none does.
-std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const CompareSettings& settings) {
-    const std::string hash = hex_digits(scene_hash(scene));
-    for (const std::filesystem::path& file : settings.reference_files) {
-        const Metadata metadata = read_metadata(file);
-        const auto found = metadata.find("nearlight:sceneHash");
-        if (found != metadata.end() && found->second == Metadata::mapped_type(hash)) {
-            return file;
-        }
-    }
-    return std::nullopt;
+/// Whether the file is a reference of this scene.
+bool shows(const std::filesystem::path& file, const Scene& scene) {
+    const Metadata metadata = read_metadata(file);
+    const auto found = metadata.find("nearlight:sceneHash");
+    return found != metadata.end() && found->second == Metadata::mapped_type(hex_digits(scene_hash(scene)));
 }
 
-/// Assigns each scene its reference file. Throws Error(ErrorKind::file) for a file that fits no scene.
+/// The reference file that shows this scene; empty if none does.
+std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const CompareSettings& settings) {
+    const auto found = std::ranges::find_if(
+        settings.reference_files, [&](const std::filesystem::path& file) { return shows(file, scene); });
+    return found == settings.reference_files.end() ? std::nullopt : std::optional(*found);
+}
+
+/// Assigns each scene its reference file. Throws Error(ErrorKind::file) for a file that fits no scene, or one
+/// that has a reference already.
 std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::span<const Scene> scenes,
                                                                          const CompareSettings& settings) {
     std::vector<std::optional<std::filesystem::path>> assigned;
@@ -50,12 +52,19 @@ std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::sp
         assigned.push_back(reference_file_of(scene, settings));
     }
     for (const std::filesystem::path& file : settings.reference_files) {
-        if (std::ranges::find(assigned, std::optional(file)) == assigned.end()) {
-            throw Error(ErrorKind::file,
-                        "'" + file.string() + "' shows none of the scenes to compare (according to its " +
-                            "'nearlight:sceneHash'); make it with `nearlight reference` from the " +
-                            "current scene file");
+        if (std::ranges::find(assigned, std::optional(file)) != assigned.end()) {
+            continue;
         }
+        if (std::ranges::any_of(scenes, [&](const Scene& scene) { return shows(file, scene); })) {
+            throw Error(ErrorKind::file,
+                        "'" + file.string() +
+                            "' shows a scene that another reference shows too; give one for each scene",
+                        "reference_files");
+        }
+        throw Error(ErrorKind::file,
+                    "'" + file.string() + "' shows none of the scenes to compare (according to its " +
+                        "'nearlight:sceneHash'); make it with `nearlight reference` from the " +
+                        "current scene file");
     }
     return assigned;
 }

@@ -69,7 +69,7 @@ void write_plots(HtmlWriter& html, const SceneComparison& scene) {
                          plot.title + ": the plot is missing because " + plot.missing_because + script + ".");
         } else {
             html.open("div", {{"class", "plot"}})
-                .markup(inline_svg(read_bytes(plot.svg), plot.title))
+                .markup(inline_svg(read_bytes(plot.svg), plot.title, plot.script.stem().string()))
                 .close();
         }
     }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kStyle =
     R"(:root { color-scheme: light dark; --line: #8886; --good: #0a7d3244; --bad: #c33; }
+@media screen and (prefers-color-scheme: dark) { :root { --bad: #ff7b72; } }
 body { font: clamp(15px, 0.6vw + 8px, 22px)/1.45 system-ui, sans-serif; max-width: 1500px; margin: 1.5em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { margin-top: 2em; border-bottom: 1px solid var(--line); } h3 { margin-top: 1.6em; }
 p, dl { max-width: 75em; }
@@ -107,15 +108,18 @@ void write_meanings(HtmlWriter& html) {
                "Root of the mean squared difference from the reference over pixels and R, G, B, as in the "
                "paper; over seeds, the root of the mean of the squares. The mean variance of the reference's "
                "own noise is subtracted first.");
-    write_pair(html, "± 95 %",
-               "Half the width of the 95 % confidence interval over seeds (Student's t). If the intervals of "
-               "two methods overlap, the methods cannot be told apart; more seeds make intervals narrower.");
+    write_pair(
+        html, "± 95 %",
+        "Half the width of the 95 % confidence interval over seeds (Student's t). Methods whose intervals "
+        "do not overlap differ; where they overlap, that is not decided. More seeds make intervals "
+        "narrower.");
     write_pair(html, "relative MSE",
                "Mean of squared difference ÷ (squared reference + 0.01), so that dark corners count as much "
                "as bright walls. The reference's noise is subtracted here too.");
-    write_pair(html, "mean ratio",
-               "All light in the picture ÷ all light in the reference. For an unbiased method, the interval "
-               "contains 1; a lower ratio means that light is lost.");
+    write_pair(
+        html, "mean ratio",
+        "All light in the picture ÷ all light in the reference. Without bias, 19 of 20 intervals contain 1; "
+        "intervals that stay below 1 mean that light is lost.");
     write_pair(html, "FLIP",
                "How different the two pictures look when one flips between them, from 0 to 1, at 67 pixels "
                "per degree of visual angle, both with the same exposure. Lower is better.");

@@ -82,6 +82,8 @@ const EqualVplsRow* best_of(std::span<const EqualVplsRow> rows) {
 /// Geometric mean of the ratios of one method, and the number of ratios that do not exist.
 class RatioMean {
   public:
+    /// `missing` says what it means that a ratio does not exist.
+    explicit RatioMean(const char* missing) : missing_text_(missing) {}
     void add(double ratio) {
         if (std::isfinite(ratio) && ratio > 0.0) {
             logarithms_ += std::log(ratio);
@@ -92,12 +94,13 @@ class RatioMean {
     }
     [[nodiscard]] std::string text() const {
         const std::string mean = count_ > 0 ? fixed_text(std::exp(logarithms_ / count_), 2) : "";
-        const std::string never =
-            missing_ > 0 ? fmt::format("never in {} of {}", missing_, missing_ + count_) : "";
-        return count_ + missing_ == 0 ? "–" : mean + (mean.empty() || never.empty() ? "" : ", ") + never;
+        const std::string missing =
+            missing_ > 0 ? fmt::format("{} in {} of {}", missing_text_, missing_, missing_ + count_) : "";
+        return count_ + missing_ == 0 ? "–" : mean + (mean.empty() || missing.empty() ? "" : ", ") + missing;
     }
 
   private:
+    const char* missing_text_;
     double logarithms_ = 0;
     int count_ = 0;
     int missing_ = 0;
@@ -105,7 +108,9 @@ class RatioMean {
 
 void write_summary_row(HtmlWriter& html, const SceneComparison& scene, const CompareSettings& settings,
                        std::size_t index) {
-    RatioMean rmse, vpls, time;
+    RatioMean rmse("below the noise of the reference");
+    RatioMean vpls("never");
+    RatioMean time("never");
     for (std::size_t i = index; i < scene.equal_vpls.size(); i += settings.methods.size()) {
         rmse.add(scene.equal_vpls[i].rmse_ratio);
     }

@@ -33,16 +33,6 @@ Interval mean_interval(std::span<const double> values) {
     return {mean, student_t_quantile(0.05, n - 1.0) * std::sqrt(squares / (n - 1.0) / n)};
 }
 
-double median(std::span<const double> values) {
-    if (values.empty()) {
-        return kNan;
-    }
-    std::vector<double> sorted(values.begin(), values.end());
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t middle = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
-}
-
 RmseEstimate rmse_estimate(std::span<const double> squared_errors) {
     const auto [mean, half] = mean_interval(squared_errors);
     const auto root = [](double square) {

@@ -22,8 +22,6 @@ struct Interval {
 };
 /// Mean and 95 % interval of the values; both NaN for no values.
 Interval mean_interval(std::span<const double> values);
-/// The middle value, or the mean of the two middle values; NaN for no values.
-double median(std::span<const double> values);
 
 /// The root of the mean of squared errors, one for each seed.
 struct RmseEstimate {

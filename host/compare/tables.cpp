@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/median.h"
+
 namespace nearlight::core {
 namespace {
 

@@ -19,24 +19,24 @@ TEST(InlineSvg, HasTheColoursOfThePageAndADescription) {
 
 <g id="gnuplot_canvas">
 <rect x="0" y="0" width="820" height="440" fill="#ffffff"/>
-<path stroke='black' d='M0,0'/><g fill="black"/><path stroke='rgb(  0,   0,   0)'/><path stroke='rgb(  0, 114, 178)'/>
+<path stroke='black' d='M0,0'/><g fill="black"/><use xlink:href='#gpPt0'/><path stroke='rgb(  0,   0,   0)'/><path stroke='rgb(  0, 114, 178)'/>
 </g></svg>
 )";
-    EXPECT_EQ(inline_svg(file, "a < b"), R"(<svg role="img" aria-label="a &lt; b"
+    EXPECT_EQ(inline_svg(file, "a < b", "desk"), R"(<svg role="img" aria-label="a &lt; b"
  viewBox="0 0 820 440"
 >
 
-<g id="gnuplot_canvas">
+<g id="desk-gnuplot_canvas">
 <rect x="0" y="0" width="820" height="440" fill="none"/>
-<path stroke='currentColor' d='M0,0'/><g fill="currentColor"/><path stroke='currentColor'/><path stroke='rgb(  0, 114, 178)'/>
+<path stroke='currentColor' d='M0,0'/><g fill="currentColor"/><use xlink:href='#desk-gpPt0'/><path stroke='currentColor'/><path stroke='rgb(  0, 114, 178)'/>
 </g></svg>
 )");
 }
 
 TEST(InlineSvg, IsEmptyWhereThereIsNone) {
-    EXPECT_EQ(inline_svg("", ""), "");
-    EXPECT_EQ(inline_svg("<html></html>", "x"), "");
-    EXPECT_EQ(inline_svg("<svg>", "x"), "");
+    EXPECT_EQ(inline_svg("", "", "a"), "");
+    EXPECT_EQ(inline_svg("<html></html>", "x", "a"), "");
+    EXPECT_EQ(inline_svg("<svg>", "x", "a"), "");
 }
 
 }  // namespace

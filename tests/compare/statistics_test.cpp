@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "host/base/median.h"
+
 namespace nearlight::core {
 namespace {
 
@@ -23,8 +25,8 @@ TEST(Statistics, OneValueHasNoIntervalAndNoneNoMean) {
 }
 
 TEST(Statistics, TheMedianIsInTheMiddle) {
-    EXPECT_EQ(median(std::array{9.0, 1.0, 2.0}), 2.0);
-    EXPECT_EQ(median(std::array{9.0, 1.0, 2.0, 4.0}), 3.0);
+    EXPECT_EQ(median({9.0, 1.0, 2.0}), 2.0);
+    EXPECT_EQ(median({9.0, 1.0, 2.0, 4.0}), 3.0);
     EXPECT_TRUE(std::isnan(median({})));
 }
 
