@@ -126,8 +126,7 @@ class Race:
 
 
 def key_of(path, size):
-    """A name for a scene file at a size, which changes with its text."""
-    with open(path, 'rb') as file:
-        digest = hashlib.sha256(file.read())
+    """A name for a scene file at a size, which changes with its text and the files that it names."""
+    digest = hash_of_files(files_of_scene(path))
     digest.update(repr((os.path.abspath(path), tuple(size))).encode())
     return digest.hexdigest()[:16]

@@ -9,6 +9,7 @@ import importlib.metadata
 import importlib.util
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -20,6 +21,28 @@ import oidn
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXPORT = os.path.join(HERE, 'scene_export.py')
+
+
+def hash_of_files(files):
+    """The hash of what the files hold, to be added to."""
+    digest = hashlib.sha256()
+    for name in files:
+        with open(name, 'rb') as file:
+            digest.update(file.read())
+    return digest
+
+
+def files_of_scene(path):
+    """The scene's file, and the meshes and pictures that it names."""
+    with open(path, encoding='utf-8', errors='replace') as file:
+        names = re.findall(r'<string\s+name="filename"\s+value="([^"]+)"', file.read())
+    found = [os.path.join(os.path.dirname(path), name) for name in sorted(set(names))]
+    return [path, *filter(os.path.isfile, found)]
+
+
+def hash_of_scripts(*names):
+    """Tells versions of our own scripts apart."""
+    return hash_of_files(os.path.join(HERE, name) for name in names).hexdigest()[:12]
 
 
 class RenderFailure(Exception):
@@ -74,8 +97,11 @@ class Nearlight:
         return None
 
     def version(self):
-        with open(self.program, 'rb') as file:
-            return hashlib.sha256(file.read()).hexdigest()[:12]
+        """That of the program and of the modules beside it."""
+        modules = os.path.join(os.path.dirname(self.program), 'modules')
+        names = sorted(os.listdir(modules)) if os.path.isdir(modules) else []
+        files = [self.program, *(os.path.join(modules, name) for name in names)]
+        return hash_of_files(filter(os.path.isfile, files)).hexdigest()[:12]
 
     def render(self, task):
         out = os.path.join(self.folder, 'nearlight.exr')
@@ -108,7 +134,7 @@ class Mitsuba:
         return f"it needs the Python package {' and '.join(absent)} (pip install mitsuba numpy)" if absent else None
 
     def version(self):
-        return importlib.metadata.version('mitsuba')
+        return importlib.metadata.version('mitsuba') + hash_of_scripts('mitsuba_run.py', 'mitsuba_scene.py')
 
     def render(self, task):
         out = os.path.join(self.folder, 'mitsuba.npy')
@@ -135,7 +161,8 @@ class Cycles:
         return f"it needs the Python package {' and '.join(absent)} (pip install mitsuba numpy bpy)" if absent else None
 
     def version(self):
-        return importlib.metadata.version('bpy')
+        scripts = ('cycles_run.py', 'cycles_scene.py', 'scene_export.py', 'mitsuba_scene.py')
+        return importlib.metadata.version('bpy') + hash_of_scripts(*scripts)
 
     def render(self, task):
         out = os.path.join(self.folder, 'cycles.exr')
@@ -148,8 +175,10 @@ class Cycles:
 
     def _exported(self, scene):
         """The scene in a neutral form, which is not part of what is measured."""
-        out = os.path.join(self.folder, 'scene-' + hashlib.sha256(os.path.abspath(scene).encode()).hexdigest()[:16] + '.npz')
-        if not os.path.exists(out) or os.path.getmtime(out) < max(os.path.getmtime(f) for f in (scene, EXPORT)):
+        digest = hash_of_files([*files_of_scene(scene), EXPORT, os.path.join(HERE, 'mitsuba_scene.py')])
+        digest.update(os.path.abspath(scene).encode())
+        out = os.path.join(self.folder, f'scene-{digest.hexdigest()[:16]}.npz')
+        if not os.path.exists(out):
             timed([sys.executable, EXPORT, json.dumps({'scene': scene, 'out': out})], self.max_seconds)
         return out
 

@@ -39,12 +39,14 @@ class Worker:
             self._process.stdin.write(json.dumps(request) + '\n')
             self._process.stdin.flush()
             answer = self._answers.get(timeout=seconds)
-        except (queue.Empty, BrokenPipeError):
+        except queue.Empty:
+            self.stop()
+            raise MitsubaFailure(f'Mitsuba took more than {seconds} s') from None
+        except BrokenPipeError:
             answer = None
         if answer is None:
-            ended = self._process.poll() is not None
             self.stop()
-            raise MitsubaFailure(f'Mitsuba ended, see {self._log}' if ended else f'Mitsuba took more than {seconds} s')
+            raise MitsubaFailure(f'Mitsuba ended, see {self._log}')
         if 'error' in answer:
             raise (UnreadableScene if answer['is_unreadable'] else MitsubaFailure)(answer['error'])
         return answer
