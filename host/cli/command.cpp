@@ -231,7 +231,8 @@ PixelWindow parse_window(const std::string& text) {
     if (!has_plus || y_error != std::errc() || last != end) {
         throw Error(
             ErrorKind::invalid_argument,
-            "'" + text + "' is not a part of a picture; give WIDTHxHEIGHT+LEFT+TOP, as in 320x240+100+50");
+            "'" + text + "' is not a part of a picture; give WIDTHxHEIGHT+LEFT+TOP, as in 320x240+100+50",
+            "crop");
     }
     const ImageSize size = parse_size(text.substr(0, plus));
     window.width = static_cast<uint>(size.width);

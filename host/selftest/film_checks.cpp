@@ -126,9 +126,10 @@ void check_splats(Device& device, CheckResult& result) {
     stage.add_camera_light(vertices, cameras, batch, size, camera_splats);
     std::vector<uint> all(pixels);
     std::iota(all.begin(), all.end(), 0u);
-    // The mean of the camera light and the same light again is that light.
-    const Buffer<CameraSplat> again(device, camera_splats.download());
-    stage.refine(Buffer<uint>(device, all), 0, pixels, 1, again, 1.0f, camera_splats);
+    // The mean of nothing and of twice the camera light is that light.
+    const Buffer<CameraSplat> more(device, camera_splats.download());
+    camera_splats.fill_zero();
+    stage.refine(Buffer<uint>(device, all), 0, pixels, 1, more, 2.0f, camera_splats);
     stage.gather(splats, &camera_splats, size, 1, rows);
     const std::vector<RowSplat> found = rows.download();
     for (uint y = 0; y < layout.height; ++y) {

@@ -225,7 +225,8 @@ bool Gatherer::for_each_run(const GatherInput<Source>& input, bool recording, co
 template <typename Source>
 bool Gatherer::gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                       const GatherProgress& progress) {
-    if (sums.groups.count() < input.group_count() * input.packet_count) {
+    const bool by_groups = input.selection == nullptr && input.strata == nullptr;
+    if (by_groups && sums.groups.count() < input.group_count() * input.packet_count) {
         throw Error(ErrorKind::invalid_argument, "the sums of a gather were allocated for fewer groups");
     }
     Course course{progress, std::uint64_t{input.packet_count} * input.asked_count() * NEARLIGHT_PACKET_SIZE,

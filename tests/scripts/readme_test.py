@@ -24,7 +24,7 @@ SKIPPED = 77  # the exit status that says so
 SMALLER = {"--size": "48x36", "--vpls": "50", "--spp": "1", "--time": "3", "--error": "0.5"}
 BESIDES = {
     "render": ["--size 48x36", "--vpls 50"],
-    "view": ["--size 48x36", "--vpls 50", "--frames 1"],
+    "view": ["--size 48x36", "--vpls 50", "--until-samples 1"],
     "reference": ["--size 48x36"],
     "compare": ["--size 32x24", "--vpls 50,100", "--seeds 2", "--reference-spp 16"]
     + ["--samplers close-range:complete,instant-radiosity"],
