@@ -323,8 +323,8 @@ tinygltf::TextureInfo texture_of(const tinygltf::ExtensionMap& extensions, const
     info.texCoord = index_of(members, "", "texCoord", 0);
     if (value->Has("extensions") && value->Get("extensions").IsObject()) {
         for (const std::string& name : value->Get("extensions").Keys()) {
-            if (const tinygltf::Value& extension = value->Get("extensions").Get(name); extension.IsObject()) {
-                info.extensions[name] = extension;
+            if (const tinygltf::Value& nested = value->Get("extensions").Get(name); nested.IsObject()) {
+                info.extensions[name] = nested;
             }
         }
     }
