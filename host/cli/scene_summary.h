@@ -11,7 +11,8 @@
 
 namespace nearlight::core {
 
-/// The number of materials of each kind that occurs: "diffuse", "coated", "metal", "glass", "thin glass".
+/// The number of materials of each kind that triangles have: "diffuse", "coated", "metal", "glass", "thin
+/// glass", …
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene);
 
 /// The summary as JSON.

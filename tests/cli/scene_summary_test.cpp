@@ -33,7 +33,7 @@ TEST(SceneSummary, JsonTellsWhatIsThere) {
     EXPECT_EQ(json["scene"], "lamp");
     EXPECT_EQ(json["triangles"], 2);
     EXPECT_EQ(json["vertices"], 4);
-    EXPECT_EQ(json["materials"].dump(), R"({"diffuse":2,"thin glass":1})");
+    EXPECT_EQ(json["materials"].dump(), R"({"diffuse":2})") << "no triangle has the thin glass";
     EXPECT_EQ(json["lights"]["triangles"], 1);
     EXPECT_EQ(json["lights"]["points"], 0);
     EXPECT_TRUE(json["lights"]["environment"].is_null());
@@ -99,7 +99,7 @@ TEST(SceneSummary, MemoryOfSplats) {
 
 TEST(SceneSummary, TextTellsTheSame) {
     const std::string text = scene_summary_text(one_lamp());
-    for (const char* part : {"lamp/scene.xml", "2 triangles, 4 vertices", "2 diffuse, 1 thin glass",
+    for (const char* part : {"lamp/scene.xml", "2 triangles, 4 vertices", "materials   2 diffuse\n",
                              "(0, 0, 0) to (2, 3, 0)", "100x50", "no environment", "not given"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
