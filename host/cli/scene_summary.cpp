@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "host/base/printable.h"
 #include "host/base/words.h"
@@ -279,18 +278,19 @@ std::string text_animations(const Scene& scene) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::size_t>> count_materials(const Scene& scene) {
-    std::set<uint> used;  // others are parts of these, or no triangle has them
+    std::vector<bool> is_used(scene.materials.size());  // others are parts of these, or no triangle has them
     for (const Triangle& triangle : scene.triangles) {
-        used.insert(triangle.material);
+        is_used[triangle.material] = true;
     }
     std::vector<std::pair<std::string, std::size_t>> counts;
     for (const char* kind : {"diffuse", "coated", "glossy", "metal", "glass", "thin glass", "principled",
                              "blend", "invisible"}) {
-        const auto count = std::ranges::count_if(used, [&](uint material) {
-            return std::string_view(kind_of(scene, scene.materials[material])) == kind;
-        });
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < is_used.size(); ++i) {
+            count += is_used[i] && std::string_view(kind_of(scene, scene.materials[i])) == kind ? 1 : 0;
+        }
         if (count > 0) {
-            counts.emplace_back(kind, static_cast<std::size_t>(count));
+            counts.emplace_back(kind, count);
         }
     }
     return counts;

@@ -29,17 +29,18 @@ std::string conditions_of(const Device& device, const SceneFacts& facts, const R
            hex_digits(kernels_hash(device.options().kernel_dir)) + "|" + to_string(settings.bvh_quality);
 }
 
-/// Whether the file is a reference of this scene.
-bool shows(const std::filesystem::path& file, const Scene& scene) {
+/// Whether the file is a reference of the scene with this hash.
+bool shows(const std::filesystem::path& file, const std::string& hash) {
     const Metadata metadata = read_metadata(file);
     const auto found = metadata.find("nearlight:sceneHash");
-    return found != metadata.end() && found->second == Metadata::mapped_type(hex_digits(scene_hash(scene)));
+    return found != metadata.end() && found->second == Metadata::mapped_type(hash);
 }
 
-/// The reference file that shows this scene; empty if none does.
-std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const CompareSettings& settings) {
+/// The reference file that shows the scene with this hash; empty if none does.
+std::optional<std::filesystem::path> reference_file_of(const std::string& hash,
+                                                       const CompareSettings& settings) {
     const auto found = std::ranges::find_if(
-        settings.reference_files, [&](const std::filesystem::path& file) { return shows(file, scene); });
+        settings.reference_files, [&](const std::filesystem::path& file) { return shows(file, hash); });
     return found == settings.reference_files.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -48,14 +49,16 @@ std::optional<std::filesystem::path> reference_file_of(const Scene& scene, const
 std::vector<std::optional<std::filesystem::path>> assign_reference_files(std::span<const Scene> scenes,
                                                                          const CompareSettings& settings) {
     std::vector<std::optional<std::filesystem::path>> assigned;
+    std::vector<std::string> hashes;
     for (const Scene& scene : scenes) {
-        assigned.push_back(reference_file_of(scene, settings));
+        hashes.push_back(hex_digits(scene_hash(scene)));
+        assigned.push_back(reference_file_of(hashes.back(), settings));
     }
     for (const std::filesystem::path& file : settings.reference_files) {
         if (std::ranges::find(assigned, std::optional(file)) != assigned.end()) {
             continue;
         }
-        if (std::ranges::any_of(scenes, [&](const Scene& scene) { return shows(file, scene); })) {
+        if (std::ranges::any_of(hashes, [&](const std::string& hash) { return shows(file, hash); })) {
             throw Error(ErrorKind::file,
                         "'" + file.string() +
                             "' shows a scene that another reference shows too; give one for each scene",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/base/files.h"
+#include "host/base/hash.h"
 #include "host/compare/inline_svg.h"
 #include "host/compare/pictures.h"
 
@@ -69,7 +70,8 @@ void write_plots(HtmlWriter& html, const SceneComparison& scene) {
                          plot.title + ": the plot is missing because " + plot.missing_because + script + ".");
         } else {
             html.open("div", {{"class", "plot"}})
-                .markup(inline_svg(read_bytes(plot.svg), plot.title, plot.script.stem().string()))
+                .markup(inline_svg(read_bytes(plot.svg), plot.title,
+                                   "plot-" + hex_digits(hash64(plot.script.stem().string()))))
                 .close();
         }
     }

@@ -190,6 +190,11 @@ TEST_F(ComparisonTest, TakesAReferenceThatFitsAndRefusesOthers) {
         refused("20x12");
         write(16, scene_hash(scene) + 1);
         refused("none of the scenes");
+        write(16, scene_hash(scene));
+        const std::filesystem::path twin = folder_ / "twin.exr";
+        std::filesystem::copy_file(file, twin, std::filesystem::copy_options::overwrite_existing);
+        given.reference_files = {file, twin};
+        refused("twin.exr' shows a scene that another reference shows too");
         std::filesystem::remove_all(given.output);
     });
 }

@@ -36,13 +36,13 @@ void add_meshes(const gltf::GltfFile& file, const std::vector<gltf::PlacedNode>&
 /// A camera that frames the nodes at rest, so that it stays where it is while they move. Their meshes are
 /// made once more, of the same file and with the same materials.
 void add_still_camera(gltf::GltfFile& file, std::vector<tinygltf::Node> nodes_at_rest,
-                      gltf::MaterialMaker& materials, Scene& scene, NoteSink& notes) {
+                      gltf::MaterialMaker& materials, bool is_placed, Scene& scene, NoteSink& notes) {
     Scene rest;
     rest.source = scene.source;
     file.model.nodes.swap(nodes_at_rest);
     add_meshes(file, gltf::place_nodes(file), materials, rest, notes);
     file.model.nodes.swap(nodes_at_rest);
-    add_default_camera(rest, false, notes);
+    add_default_camera(rest, is_placed, notes);
     scene.camera = rest.camera;
 }
 
@@ -70,12 +70,13 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     }
     gltf::add_lights(file, lights, scene, notes);
     const std::vector<gltf::PlacedCamera> cameras = cameras_of(file, nodes);
+    const bool is_placed = options.overrides.origin.has_value();
     if (!options.camera.empty() || !cameras.empty()) {
         scene.camera = gltf::choose_camera(file, cameras, options.camera);
     } else if (options.moment) {
-        add_still_camera(file, std::move(nodes_at_rest), materials, scene, notes);
+        add_still_camera(file, std::move(nodes_at_rest), materials, is_placed, scene, notes);
     } else {
-        add_default_camera(scene, options.overrides.origin.has_value(), notes);
+        add_default_camera(scene, is_placed, notes);
     }
     if (!options.overrides.bring_light()) {
         // A file with a camera is a scene, which surfaces that shine light. Without one it is a model, of

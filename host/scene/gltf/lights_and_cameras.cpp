@@ -79,18 +79,11 @@ void note_odd_numbers(const GltfFile& file, const tinygltf::Light& light, NoteSi
 
 /// The transform of a SceneCamera, which looks along +Z with +X to the left, and has no scale.
 Mat4 camera_to_world(const GltfFile& file, const PlacedCamera& placed) {
-    Mat4 to_world = placed.to_world * scaling(-1, 1, -1);
-    for (int column = 0; column < 3; ++column) {
-        const double l = std::hypot(to_world(0, column), to_world(1, column), to_world(2, column));
-        if (!(l > 0)) {
-            file.fail("the transform of camera '" + placed.node +
-                      "' is singular: it maps space onto a plane, a line or a point");
-        }
-        for (int row = 0; row < 3; ++row) {
-            to_world(row, column) /= l;
-        }
+    if (!(std::abs(linear_determinant(placed.to_world)) > 1e-6)) {
+        file.fail("the transform of camera '" + placed.node +
+                  "' is singular: it maps space onto a plane, a line or a point");
     }
-    return to_world;
+    return placed.to_world * scaling(-1, 1, -1);
 }
 
 void set_size(SceneCamera& camera, double aspect) {

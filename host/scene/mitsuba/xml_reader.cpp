@@ -145,6 +145,9 @@ class Reader {
     }
 
     void include(const std::filesystem::path& path, const Element& element, Object& parent, int depth) {
+        if (depth > kMaxXmlDepth) {
+            fail(element.where, "files include one another too deeply");
+        }
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(path, ignored)) {
             fail(element.where, "included file '" + path.string() + "' cannot be read");
