@@ -49,19 +49,22 @@ uint group_of(const std::string& word) {
     return error == std::errc() ? group : 1;
 }
 
-/// How many words a line has behind its first, if they are decimal numbers alone; 0 if they are not.
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// How many words the text has, if they are decimal numbers alone; 0 if they are not.
 std::size_t number_count(std::string_view line) {
     std::size_t count = 0;
     bool in_word = false;
     for (const char c : line) {
-        const bool is_blank = c == ' ' || c == '\t' || c == '\r';
         const bool is_of_number =
             (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
-        if (!is_blank && !is_of_number) {
+        if (!is_of_number && !is_blank(c)) {
             return 0;
         }
-        count += !is_blank && !in_word ? 1 : 0;
-        in_word = !is_blank;
+        count += is_of_number && !in_word ? 1 : 0;
+        in_word = is_of_number;
     }
     return count;
 }
@@ -73,7 +76,7 @@ void blank_empty_fields(std::string& text) {
         if (starts_with_word(line, "f")) {
             for (std::size_t i = line.size(); i-- > 0;) {
                 const char next = i + 1 < line.size() ? text[begin + i + 1] : ' ';
-                if (line[i] == '/' && (next == ' ' || next == '\t' || next == '\r')) {
+                if (line[i] == '/' && is_blank(next)) {
                     text[begin + i] = ' ';
                 }
             }
@@ -115,9 +118,10 @@ void tidy_lines(std::string& text) {
     if (taken > 0) {
         text = joined.append(text, taken);
     }
-    if (text.find("/ ") != std::string::npos || text.find("/\t") != std::string::npos ||
-        text.find("/\r") != std::string::npos || text.find("/\n") != std::string::npos ||
-        text.ends_with('/')) {
+    // Hardly any file has such slashes, and a single look at all of it costs little.
+    const auto slash = std::ranges::adjacent_find(
+        text, [](char c, char next) { return c == '/' && static_cast<unsigned char>(next) <= ' '; });
+    if (slash != text.end() || text.ends_with('/')) {
         blank_empty_fields(text);
     }
 }
@@ -125,13 +129,12 @@ void tidy_lines(std::string& text) {
 OddNumbers odd_numbers(std::string_view text) {
     OddNumbers odd;
     for_each_line(text, [&](int number, std::string_view line) {
-        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-        if (!line.starts_with('v')) {
-            return true;
+        while (!line.empty() && is_blank(line.front())) {
+            line.remove_prefix(1);
         }
-        const std::string_view word = first_word(line);
-        const std::size_t needed = word == "v" || word == "vn" ? 3 : word == "vt" ? 1 : 0;
-        line.remove_prefix(word.size());
+        const bool is_position = line == "v" || (line.size() > 1 && line[0] == 'v' && is_blank(line[1]));
+        const std::size_t needed = is_position || line.starts_with("vn") ? 3 : line.starts_with("vt") ? 1 : 0;
+        line = line.substr(std::min<std::size_t>(is_position ? 1 : 2, line.size()));
         line = line.substr(0, line.find('#'));
         if (needed > 0 && number_count(line) < needed) {
             odd.first_line = odd.lines++ == 0 ? number : odd.first_line;
