@@ -54,12 +54,13 @@ def ratio_to_equal(ours, theirs, exponent):
     """How many times longer `theirs` takes to the least error that both reach; curves are pairs of seconds and errors.
 
     Where ours begins below all that theirs reaches, the error is that of our first point, and theirs goes on from its last point as
-    seconds to the power of -`exponent`, or stops there if `exponent` is None. Returns the ratio and how it is to be read: '' as
-    it is, '~' as continued, '>' as a lower bound.
+    seconds to the power of -`exponent`, or stops there if `exponent` is None. Where theirs begins below all that ours reaches, theirs
+    has the seconds of its first point, though it may have got there sooner. Returns the ratio and how it is to be read: '' as it is,
+    '~' as continued, '>' as a lower bound, '<' as an upper bound.
     """
-    error = max(min(ours[1]), min(theirs[1]))
-    if error < ours[1][0]:
-        return seconds_to(error, *theirs) / seconds_to(error, *ours), ''
+    if min(theirs[1]) <= ours[1][0]:
+        error = max(min(ours[1]), min(theirs[1]))
+        return seconds_to(error, *theirs) / seconds_to(error, *ours), '<' if theirs[1][0] < error else ''
     best = int(np.argmin(theirs[1]))
     if exponent is None:
         return theirs[0][best] / ours[0][0], '>'

@@ -9,7 +9,7 @@ import os
 import numpy as np
 
 import measures
-from renderers import RenderFailure, Task, read_exr, write_exr
+from renderers import RenderFailure, Task, files_of_scene, hash_of_files, read_exr, write_exr
 
 TRUTH_SEEDS = (1_000_001, 1_000_002)     # of the two halves; no measured picture has these
 

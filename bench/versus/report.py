@@ -7,6 +7,7 @@ import numpy as np
 import measures
 import plots
 
+README = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'README.md')
 MEASURES = {'relative_mse': 'relative MSE', 'flip': 'FLIP'}
 EXPONENTS = {'relative_mse': 1, 'flip': 0.5}     # errors of pictures without bias fall as seconds to the power of minus this
 CLOCKS = {'render': 'seconds of rendering', 'process': 'seconds of the whole process', 'processor': 'processor seconds'}
@@ -16,7 +17,7 @@ def write(file, results, notes, arguments):
     base, name = os.path.split(file)
     folder = os.path.join(base, os.path.splitext(name)[0].lower() + '-plots')
     os.makedirs(folder, exist_ok=True)
-    lines = introduction(arguments, notes)
+    lines = introduction(arguments, notes, os.path.relpath(README, base or '.'))
     for result in results:
         lines += scene_lines(result, folder, base, arguments)
     with open(file + '.partial', 'w', encoding='utf-8') as out:
@@ -24,9 +25,9 @@ def write(file, results, notes, arguments):
     os.replace(file + '.partial', file)
 
 
-def introduction(arguments, notes):
+def introduction(arguments, notes, readme):
     return ['# nearlight beside path tracers', '',
-            'Written by `bench/versus/versus.py` ([README](versus/README.md) says what is measured and how).', '',
+            f'Written by `bench/versus/versus.py` ([README]({readme}) says what is measured and how).', '',
             f'{arguments.seeds} seeds a point, pictures of {arguments.size}; seconds are medians. '
             f'Plots are over the {CLOCKS[arguments.clock]}; bars go from the least to the largest of the seeds, dashed lines are '
             'denoised pictures.', '', *[f'- {note}' for note in notes], '']
@@ -70,7 +71,7 @@ def error_plot(result, measure, clock_name):
 
 def ratio_table(result):
     """Seconds of each path tracer to the least error that it and nearlight both reach, over nearlight's seconds to that.
-    measures.ratio_to_equal() says what the marks ~ and > mean."""
+    measures.ratio_to_equal() says what the marks ~, > and < mean."""
     lines = ['| to equal | clock | ' + ' | '.join(names(result)) + ' |', '|---|---|' + '---:|' * len(names(result))]
     for denoised in (False, True):
         curves = {c['renderer']: c['points'] for c in result['curves'] if c['denoised'] == denoised}
@@ -97,7 +98,8 @@ def ratio_text(ours, theirs, measure, clock_name, denoised):
                   for points in (ours, theirs)]
         results.append(measures.ratio_to_equal(*curves, None if denoised else EXPONENTS[measure]))
     ratios = [ratio for ratio, _ in results]
-    mark = max(mark for _, mark in results)
+    marks = {mark for _, mark in results}
+    mark = '~' if marks >= {'<', '>'} else max(marks)      # of seeds that bound the ratio from both sides, neither bound holds
     return f'{mark} {np.median(ratios):.2g} ({min(ratios):.2g} to {max(ratios):.2g})'.strip()
 
 

@@ -19,6 +19,7 @@ import numpy as np
 
 import measures
 import plots
+import race
 import report
 import scene_export
 
@@ -63,6 +64,12 @@ class Measures(unittest.TestCase):
         self.assertEqual(measures.ratio_to_equal(([1, 2], [0.1, 0.05]), slow, 0.5), (16.0, '~'))
         self.assertEqual(measures.ratio_to_equal(([1, 2], [0.1, 0.05]), slow, None), (4.0, '>'))
         self.assertLess(measures.ratio_to_equal(slow, fast, 1)[0], 1)
+        self.assertEqual(measures.ratio_to_equal(([1, 2], [0.4, 0.2]), ([5, 10], [0.1, 0.05]), 1), (2.5, '<'))
+
+    def test_a_single_picture_is_compared_on_the_other_curve(self):
+        ratio, mark = measures.ratio_to_equal(([1], [0.2]), ([1, 10], [0.4, 0.1]), None)
+        self.assertEqual(mark, '')
+        self.assertAlmostEqual(ratio, 10 ** 0.5)
 
     def test_the_truth_trusts_the_less_noisy(self):
         random = np.random.default_rng(2)
@@ -125,6 +132,23 @@ class Export(unittest.TestCase):
         self.assertTrue((across[:, 2] > 0).all())
         self.assertAlmostEqual(np.linalg.norm(across, axis=1).sum() / 2, 4 * np.pi, delta=0.01)
         np.testing.assert_allclose(corners[0], [5, 0, 0])
+
+
+class KeptPictures(unittest.TestCase):
+    def test_their_names_change_with_the_size_the_scene_and_its_files(self):
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
+            scene, mesh = (os.path.join(folder, name) for name in ('scene.xml', 'mesh.obj'))
+            keys = set()
+            for triangle in ('f 1 2 3', 'f 3 2 1'):
+                with open(mesh, 'w', encoding='utf-8') as out:
+                    out.write(triangle)
+                for value in ('a', 'b'):
+                    with open(scene, 'w', encoding='utf-8') as out:
+                        out.write(f'<scene><string name="filename" value="mesh.obj"/><!-- {value} --></scene>')
+                    for size in ((4, 3), (8, 6)):
+                        self.assertEqual(race.key_of(scene, size), race.key_of(scene, size))
+                        keys.add(race.key_of(scene, size))
+            self.assertEqual(len(keys), 8)
 
 
 class Report(unittest.TestCase):
