@@ -64,12 +64,19 @@ class Reader {
     std::string_view rest_;
 };
 
-std::uint64_t bytes_after_header(const Header& header) {
-    return std::uint64_t{header.vertex_count} * sizeof(Vec3) +
+/// Words of rays, one for each pair of a packet and a VPL.
+std::uint64_t word_count(const Header& header) {
+    return std::uint64_t{header.packet_count} * header.vpl_count;
+}
+
+/// The size of the whole file. Two counts multiplied may need more bytes than 64 bits count, so a file that
+/// cannot hold that many words has to be refused before.
+std::uint64_t bytes_of_file(const Header& header) {
+    return kMagic.size() + sizeof(Header) + std::uint64_t{header.vertex_count} * sizeof(Vec3) +
            std::uint64_t{header.triangle_count} * sizeof(StoredTriangle) +
            std::uint64_t{header.vpl_count} * sizeof(StoredVpl) +
            std::uint64_t{header.packet_count} * sizeof(StoredPacket) +
-           std::uint64_t{header.packet_count} * header.vpl_count * sizeof(std::uint64_t);
+           word_count(header) * sizeof(std::uint64_t);
 }
 
 bool is_finite(const ReceiverPacket& packet) {
@@ -148,7 +155,7 @@ GatherSegments read_arrays(const Header& header, Reader& reader) {
         const auto packet = reader.take<StoredPacket>();
         std::memcpy(&segments.receivers.emplace_back(), &packet, sizeof packet);
     }
-    for (std::size_t i = 0; i < std::size_t{header.packet_count} * header.vpl_count; ++i) {
+    for (std::uint64_t i = 0; i < word_count(header); ++i) {
         segments.rays.push_back(reader.take<std::uint64_t>());
     }
     return segments;
@@ -199,10 +206,13 @@ GatherSegments read_segments(const std::filesystem::path& file) {
     }
     Reader reader(std::string_view(bytes).substr(kMagic.size()));
     const auto header = reader.take<Header>();
-    const std::uint64_t expected = kMagic.size() + sizeof(Header) + bytes_after_header(header);
-    if (bytes.size() != expected) {
+    if (word_count(header) > bytes.size() / sizeof(std::uint64_t)) {
         throw fail("it has " + std::to_string(bytes.size()) + " bytes, its header asks for " +
-                   std::to_string(expected));
+                   std::to_string(word_count(header)) + " words of rays");
+    }
+    if (bytes.size() != bytes_of_file(header)) {
+        throw fail("it has " + std::to_string(bytes.size()) + " bytes, its header asks for " +
+                   std::to_string(bytes_of_file(header)));
     }
     if (!is_sound(header)) {
         throw fail("its header has other limits of a segment, or no clamp radius");

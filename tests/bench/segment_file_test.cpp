@@ -115,6 +115,15 @@ TEST_F(SegmentFile, RefusesWrongHeaders) {
     expect_refusal("header", [&] { read_with(44, 1u); });
 }
 
+// With these counts, 2^64 bytes follow the header, which 64 bits count as none.
+TEST_F(SegmentFile, RefusesCountsWhoseBytesOverflow) {
+    std::string bytes = bytes_.substr(0, kHeaderBytes);
+    const std::uint32_t counts[] = {603, 0, 2147483447, 1073741824};
+    std::memcpy(bytes.data() + 8, counts, sizeof counts);
+    write_text(file_, bytes);
+    expect_refusal("words of rays", [&] { read_segments(file_); });
+}
+
 TEST_F(SegmentFile, RefusesWrongContents) {
     const float infinity = std::numeric_limits<float>::infinity();
     const auto vertices = static_cast<uint>(segments_.geometry.vertices.size());

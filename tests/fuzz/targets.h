@@ -20,6 +20,8 @@ void fuzz_mtl(Bytes bytes);
 void fuzz_ply(Bytes bytes);
 /// Sets of VPLs.
 void fuzz_vpls(Bytes bytes);
+/// Segments of `bench gather --replay`.
+void fuzz_segments(Bytes bytes);
 /// The first byte says whether the rest is a file as it is, or what is compressed in a file of some version.
 void fuzz_serialized(Bytes bytes);
 /// A .glb if it begins like one, else a .gltf.
@@ -45,6 +47,7 @@ inline constexpr Target kTargets[] = {{"mitsuba", fuzz_mitsuba},
                                       {"mtl", fuzz_mtl},
                                       {"ply", fuzz_ply},
                                       {"vpls", fuzz_vpls},
+                                      {"segments", fuzz_segments},
                                       {"serialized", fuzz_serialized},
                                       {"gltf", fuzz_gltf},
                                       {"image", fuzz_image},
