@@ -5,7 +5,6 @@
 #include <functional>
 #include <thread>
 
-#include "host/base/stopwatch.h"
 #include "host/bench/embree_trees.h"
 #include "host/bench/statistics.h"
 #include "host/reference/gather_workload.h"
@@ -31,9 +30,9 @@ TreeWork make_tree_work(const Scene& scene, const Bvh& bvh, const BuildBenchConf
 /// One way to build a tree.
 struct Contender {
     std::string name;
-    std::function<double()> measure;  ///< builds a tree and returns the seconds that it took
+    std::function<Seconds()> measure;  ///< builds a tree and returns the seconds that it took
     std::function<Bvh()> build;
-    std::vector<double> seconds;
+    std::vector<Seconds> seconds;
 };
 
 std::vector<Contender> contenders(const Scene& scene, std::span<const uint> ids, const BvhConfig& config) {
@@ -43,9 +42,9 @@ std::vector<Contender> contenders(const Scene& scene, std::span<const uint> ids,
         own.quality = quality;
         const auto build = [&scene, ids, own] { return build_bvh(scene, ids, own); };
         const auto measure = [build] {
-            const Stopwatch watch;
+            const TwoClocks clocks(TwoClocks::Of::process);
             const Bvh bvh = build();
-            return watch.seconds();
+            return clocks.seconds();
         };
         result.push_back({std::string("nearlight ") + to_string(quality), measure, build, {}});
     }
@@ -63,21 +62,14 @@ BuiltTree describe(const Contender& contender, std::size_t triangles, const Tree
     const Bvh bvh = contender.build();
     BuiltTree tree;
     tree.name = contender.name;
-    tree.seconds = median(contender.seconds);
+    tree.seconds = {median(readings(contender.seconds, &Seconds::wall)),
+                    median(readings(contender.seconds, &Seconds::processor))};
     tree.sah_cost = bvh.sah_cost;
     tree.nodes = bvh.nodes.size();
     tree.duplication = static_cast<double>(bvh.triangles.size()) / static_cast<double>(triangles) - 1.0;
     tree.depth = bvh.depth;
     tree.steps = count_steps(bvh, work.vpls, work.receivers, threads);
     return tree;
-}
-
-std::vector<double> ratios(const std::vector<double>& ours, const std::vector<double>& theirs) {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-        result.push_back(ours[i] / theirs[i]);
-    }
-    return result;
 }
 
 }  // namespace
@@ -101,7 +93,8 @@ BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config)
     }
     const TreeSteps& ours = result.trees[1].steps;
     const TreeSteps& theirs = result.trees[3].steps;
-    result.ratio_seconds = median(ratios(all[1].seconds, all[3].seconds));
+    result.ratio = {ratio(all[1].seconds, all[3].seconds, &Seconds::wall).median,
+                    ratio(all[1].seconds, all[3].seconds, &Seconds::processor).median};
     result.ratio_ray_steps =
         (ours.nodes_per_ray + ours.triangles_per_ray) / (theirs.nodes_per_ray + theirs.triangles_per_ray);
     result.ratio_packet_steps = (ours.nodes_per_packet + ours.triangles_per_packet) /

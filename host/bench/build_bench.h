@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/bench/seconds.h"
 #include "host/bench/tree_steps.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
@@ -26,7 +27,7 @@ struct BuildBenchConfig {
 /// the binary tree that rtcBuildBVH() makes.
 struct BuiltTree {
     std::string name;
-    double seconds = 0.0;  ///< median of interleaved builds with all threads
+    Seconds seconds;  ///< medians of interleaved builds with all threads
     double sah_cost = 0.0;
     std::size_t nodes = 0;
     double duplication = 0.0;  ///< entries in leaves ÷ triangles, minus 1
@@ -36,8 +37,9 @@ struct BuiltTree {
 
 struct BuildBenchResult {
     std::size_t triangles = 0;
-    std::vector<BuiltTree> trees;     ///< our fast and quality trees, then Embree's medium and high
-    double ratio_seconds = 0.0;       ///< our quality ÷ Embree's high: median of the ratios of all repeats
+    std::vector<BuiltTree> trees;  ///< our fast and quality trees, then Embree's medium and high
+    /// Seconds of our quality ÷ those of Embree's high: median of the ratios of all repeats.
+    Seconds ratio;
     double ratio_ray_steps = 0.0;     ///< our quality ÷ Embree's high, nodes and triangles together
     double ratio_packet_steps = 0.0;  ///< as ratio_ray_steps, for packets
 };

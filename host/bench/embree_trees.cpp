@@ -154,7 +154,7 @@ RTCBuildArguments arguments_for(std::vector<RTCBuildPrimitive>& primitives, std:
 
 }  // namespace
 
-double seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality) {
+Seconds seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality) {
     const EmbreeDevice device = new_device();
     const EmbreeTree tree(rtcNewScene(device.get()));
     rtcSetSceneBuildQuality(tree.get(), to_embree(quality));
@@ -173,9 +173,9 @@ double seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, Em
     }
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(tree.get(), geometry.get());
-    const Stopwatch watch;
+    const TwoClocks clocks(TwoClocks::Of::process);
     rtcCommitScene(tree.get());
-    const double seconds = watch.seconds();
+    const Seconds seconds = clocks.seconds();
     check(device.get(), ids.size());
     return seconds;
 }

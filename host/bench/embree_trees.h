@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "host/bench/seconds.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 
@@ -16,7 +17,7 @@ enum class EmbreeQuality {
 
 /// Seconds that rtcCommitScene() takes for the triangles `ids`, with Embree's own kind of tree. Throws
 /// Error(ErrorKind::failure) where Embree fails.
-double seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality);
+Seconds seconds_of_embree_build(const Scene& scene, std::span<const uint> ids, EmbreeQuality quality);
 
 /// Builds a binary tree by rtcBuildBVH(), with the same costs and leaf size as ours and, at high quality,
 /// room for as many cut triangles as Embree's own scenes have by default (20 %). It has our layout except for

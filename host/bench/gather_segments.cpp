@@ -66,11 +66,11 @@ GatherSegments make_rendered_segments(Device& device, const Scene& scene, const 
                                       std::size_t vpl_count, int width, int height) {
     Session session(device, scene);
     const View view = session.look({.width = width, .height = height}, 0);
-    std::vector<Vpl> vpls =
-        session.sample(view, {.vpl_count = static_cast<uint>(vpl_count)}, 0).vpls.download();
+    const VplSet set = session.sample(view, {.vpl_count = static_cast<uint>(vpl_count)}, 0);
+    std::vector<Vpl> vpls = set.vpls.download();
     sort_along_morton_curve(scene, vpls);
     return make_gather_segments(scene, std::move(vpls), make_camera_receivers(scene, bvh, width, height),
-                                view.clamp_radius);
+                                budget_of(view, set, {}).clamp_radius);
 }
 
 std::uint64_t count_bits(std::span<const std::uint64_t> mask) {

@@ -27,14 +27,15 @@ struct RayTracerFigures {
     std::size_t differing = 0;
 };
 
-/// The figures for rays of one kind. Ratios are the seconds of Embree's fastest mode divided by ours: by the
-/// wall clock, and by processor time where the device is a CPU (otherwise 0).
+/// The figures for rays of one kind. Ratios are the seconds of Embree's fastest mode divided by ours, where
+/// only modes count that differ for at most 1e-5 of the rays, or for one ray: by the wall clock, and by
+/// processor time where the device is a CPU (otherwise 0).
 struct RaySetResult {
     std::string name;  ///< "camera", "light walks"
     std::size_t rays = 0;
     std::size_t hits = 0;
     std::vector<RayTracerFigures> tracers;  ///< our kernel first
-    std::string best;                       ///< name of Embree's fastest mode
+    std::string best;                       ///< name of Embree's fastest mode, of those that count
     double ratio = 0.0;
     double ratio_processor = 0.0;
     bool agrees = true;  ///< our kernel differs for at most 1e-5 of the rays, or for one ray

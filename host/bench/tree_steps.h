@@ -23,7 +23,7 @@ struct TreeSteps {
     double triangles_per_packet = 0.0;
 };
 
-/// Counts the steps of all pairs. @param threads 0: one per core
+/// Counts the steps of all pairs. @param threads at least 1
 TreeSteps count_steps(const Bvh& bvh, std::span<const Vpl> vpls, std::span<const ReceiverPacket> receivers,
                       int threads);
 

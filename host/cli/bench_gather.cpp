@@ -100,7 +100,9 @@ nlohmann::ordered_json to_json(const std::string& name, BvhQuality bvh, const Ga
     }
     if (result.roulette) {
         json["ratio_roulette"] = to_json(result.wall_roulette);
-        json["processor_ratio_roulette"] = to_json(result.processor_roulette);
+        if (result.processor_roulette.median > 0.0) {
+            json["processor_ratio_roulette"] = to_json(result.processor_roulette);
+        }
     }
     json["edge_tolerance"] = result.edge_tolerance;
     json["disagreements"] = nlohmann::ordered_json::array();
