@@ -202,8 +202,9 @@ void add_light_options(CLI::App& command, CompareSettings& settings) {
         ->check(number_from(0, kMaxLength))
         ->type_name("R");
     command
-        .add_option("--clamp-fraction", settings.clamp_fraction,
-                    "Clamp radius as a fraction of the range (default: 0.025)")
+        .add_option(
+            "--clamp-fraction", settings.clamp_fraction,
+            "Clamp radius as a fraction of the range (default: the radius of --reference, or else 0.025)")
         ->check(number_from(0, 10))
         ->type_name("F");
     command

@@ -27,8 +27,10 @@ enum class Reach {
     measured,      ///< the baseline itself at one of its counts
     fitted,        ///< between half the smallest and twice the largest measured count
     extrapolated,  ///< beyond the range of `fitted`: an order of magnitude only
-    never,  ///< the RMSE does not fall with the count, has a floor above the RMSE asked for, or falls so
-            ///< slowly that a hundred times the largest measured count would not suffice
+    /// The RMSE does not fall with the count, has a floor above the RMSE asked for, falls so slowly that a
+    /// hundred times the largest measured count would not suffice, or lies beyond the range of `fitted` for a
+    /// biased method, whose line does not go on.
+    never,
 };
 const char* to_string(Reach reach);
 

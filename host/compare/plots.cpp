@@ -42,7 +42,7 @@ Drawing run_gnuplot(const std::filesystem::path& script) {
     return done ? Drawing::done : Drawing::failed;
 }
 
-/// Plot::missing_because.
+/// Why a plot is missing, as Plot::missing_because has it.
 const char* reason_of(Drawing drawing) {
     switch (drawing) {
         case Drawing::done:

@@ -135,7 +135,8 @@ void write_meanings(HtmlWriter& html) {
     write_pair(html, "basis",
                "Measured; fitted, which is within twice the measured range; extrapolated, which is beyond it "
                "and gives an order of magnitude; never: the method's error does not fall, or not within a "
-               "hundred times the measured range, or cannot fall to this RMSE because light is lost.");
+               "hundred times the measured range, or cannot fall to this RMSE because light is lost, or it "
+               "is biased, and this RMSE lies beyond twice the measured range.");
     html.close();
 }
 

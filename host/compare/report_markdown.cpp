@@ -37,10 +37,11 @@ std::string image(const PictureFile& file, const std::string& title) {
 std::string conditions(const SceneComparison& scene, const CompareSettings& settings) {
     const SceneFacts& facts = scene.facts;
     std::string text = fmt::format(
-        "{} triangles, {}×{} pixels, {} seeds, depth {}, close range up to {:.4g}, clamp radius {:.4g}. "
+        "{} triangles, {}×{} pixels, {} seed{}, depth {}, close range up to {:.4g} m, clamp radius {:.4g} m. "
         "Reference: {}, {}",
-        facts.triangles, settings.width, settings.height, settings.seed_count, facts.max_depth, facts.range,
-        facts.clamp_radius, scene.reference.method, samples_text(scene.reference));
+        facts.triangles, settings.width, settings.height, settings.seed_count,
+        settings.seed_count == 1 ? "" : "s", facts.max_depth, facts.range, facts.clamp_radius,
+        scene.reference.method, samples_text(scene.reference));
     if (scene.reference.noise.known) {
         text += fmt::format("; its own noise, {:.2g}, is subtracted from the errors",
                             std::sqrt(scene.reference.noise.mean_variance));

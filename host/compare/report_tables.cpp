@@ -15,13 +15,6 @@ namespace {
 const HtmlAttributes kName{{"class", "name"}};
 const HtmlAttributes kRowName{{"class", "name"}, {"scope", "row"}};
 
-std::string seconds_text(double value) {
-    return std::isfinite(value) ? fmt::format("{:.3f}", value) : "–";
-}
-std::string count_text(double value) {
-    return std::isfinite(value) ? fmt::format("{:.0f}", value) : "–";
-}
-
 /// Opens a table, with its caption and the headers of its columns, as far as the body. Three elements are
 /// then open.
 void open_table(HtmlWriter& html, const std::string& caption, std::initializer_list<const char*> columns) {
@@ -43,7 +36,7 @@ void write_row(HtmlWriter& html, const EqualVplsRow& row, bool first_of_count, b
     html.open("tr", first_of_count ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
     write_method(html, row.method);
     for (const double count : {static_cast<double>(row.vpls), row.gathered_vpls, row.sparse_vpls}) {
-        html.element("td", count_text(count));
+        html.element("td", fixed_text(count, 0));
     }
     html.element("td", interval_text(row.rmse.value, row.rmse.half_width),
                  best ? HtmlAttributes{{"class", "best"}} : HtmlAttributes{});
@@ -51,7 +44,7 @@ void write_row(HtmlWriter& html, const EqualVplsRow& row, bool first_of_count, b
     html.element("td", number_text(row.relative_mse.mean));
     html.element("td", interval_text(row.mean_ratio.mean, row.mean_ratio.half_width, 4));
     html.element("td", number_text(row.flip.mean));
-    html.element("td", seconds_text(row.generate_seconds)).element("td", seconds_text(row.gather_seconds));
+    html.element("td", fixed_text(row.generate_seconds, 3)).element("td", fixed_text(row.gather_seconds, 3));
     html.close();
 }
 
@@ -61,7 +54,7 @@ void write_row(HtmlWriter& html, const EqualRmse& group, const EqualRmseRow& row
     html.open("tr", first ? HtmlAttributes{{"class", "first"}} : HtmlAttributes{});
     html.element("td", first ? number_text(group.rmse) : "");
     write_method(html, method);
-    for (const std::string& text : {count_text(row.vpls), seconds_text(row.seconds),
+    for (const std::string& text : {fixed_text(row.vpls, 0), fixed_text(row.seconds, 3),
                                     fixed_text(row.vpls_ratio, 2), fixed_text(row.time_ratio, 2)}) {
         html.element("td", text);
     }

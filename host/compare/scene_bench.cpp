@@ -109,7 +109,14 @@ float SceneBench::choose_clamp_radius(const std::optional<std::filesystem::path>
         return *settings_.clamp_radius;
     }
     if (reference_file && !settings_.clamp_fraction) {
-        return clamp_radius_of(*reference_file);
+        const float radius = clamp_radius_of(*reference_file);
+        if (radius == 0.0f) {
+            say_warning(
+                "'" + reference_file->string() +
+                "' was made without a clamp radius, so no sampler has one; --clamp-fraction gives them "
+                "one again, but then the reference must be made with that radius");
+        }
+        return radius;
     }
     return settings_.clamp_fraction.value_or(kDefaultClampFraction) * facts_.range;
 }
