@@ -31,7 +31,7 @@ install(FILES "${PROJECT_BINARY_DIR}/nearlight.pc" DESTINATION "${CMAKE_INSTALL_
 if(NEARLIGHT_VIEWER)
   install(TARGETS nearlight_viewer LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Viewer)
 endif()
-# So is the module that calls MPI, by processes that mpirun started.
+# Processes that mpirun started load the module that calls MPI.
 if(TARGET nearlight_mpi)
   install(TARGETS nearlight_mpi LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/nearlight" COMPONENT Mpi)
 endif()
