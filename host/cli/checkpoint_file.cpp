@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -154,6 +155,17 @@ Json record_json(const PassRecord& record) {
     return json;
 }
 
+/// Throws unless settings may have these numbers.
+void check(const PassChoice& choice) {
+    const RayBudget& budget = choice.ray_budget;
+    const float numbers[] = {choice.range, budget.clamp_radius, budget.shared_limit};
+    const auto is_sound = [](float number) { return std::isfinite(number) && number >= 0.0f; };
+    if (!std::ranges::all_of(numbers, is_sound) || budget.direct_samples_per_pixel > kMaxLightSamples ||
+        budget.aimed_rays > kMaxAimedRays) {
+        throw std::out_of_range("choice");
+    }
+}
+
 PassRecord record_in(const Json& json) {
     PassRecord record{.whole = {},
                       .begun_samples = whole_in<uint>(json.at("begun_samples")),
@@ -185,9 +197,10 @@ PassRecord record_in(const Json& json) {
                                         .direct_samples_per_pixel = whole_in<uint>(choice.at(2)),
                                         .shared_limit = choice.at(3),
                                         .aimed_rays = whole_in<uint>(choice.at(4))}};
-        if (record.choice->ray_budget.aimed_rays > kMaxAimedRays) {
-            throw std::length_error("aimed rays");
-        }
+        check(*record.choice);
+    }
+    if (record.begun_samples > kMaxSamplesPerPixel) {
+        throw std::length_error("samples");
     }
     return record;
 }

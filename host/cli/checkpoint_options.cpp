@@ -7,6 +7,7 @@
 #include "host/cli/pass_list.h"
 #include "host/cli/pass_options.h"
 #include "host/cli/picture_files.h"
+#include "host/session/passes.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -64,7 +65,8 @@ void check_passes(const PassRecord& record, const std::filesystem::path& file, u
 void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
     auto* const file = command.add_option(
         "--checkpoint", options.file,
-        "Keep the sums of all passes in this file too, for --resume and `nearlight merge`");
+        "Keep the sums of all passes in this file too, for --resume and `nearlight merge`; with --spp 1, "
+        "samples then lie all over their pixels, as in several passes");
     file->type_name("FILE");
     command
         .add_flag(
@@ -117,6 +119,12 @@ void check_checkpoint(const CheckpointOptions& options, const std::vector<std::s
     }
 }
 
+void warn_of_idle_interval(const CheckpointOptions& options, const RenderSettings& settings) {
+    if (options.seconds && options.file.empty() && !may_have_passes(settings)) {
+        spdlog::warn("--checkpoint-every changes nothing: there is one pass, and no --checkpoint");
+    }
+}
+
 std::optional<CheckpointReader> open_checkpoint(const CheckpointOptions& options) {
     std::error_code error;
     if (!options.resumes) {
@@ -130,12 +138,17 @@ std::optional<CheckpointReader> open_checkpoint(const CheckpointOptions& options
 }
 
 PassStart pass_start(const CheckpointOptions& options, std::optional<CheckpointReader>& reader,
-                     const CheckpointFacts& ours, const RenderSettings& settings) {
+                     const CheckpointFacts& ours, const RenderSettings& settings, const PixelWindow& window) {
     PassStart start{.first = options.first_pass, .checkpoint = {}, .keeps_sums = !options.file.empty()};
     if (reader) {
         const auto difference = difference_of_pictures(reader->facts(), ours);
         if (const auto found = difference ? difference : difference_of_bits(reader->facts(), ours)) {
             refuse_to_go_on(options.file, *found);
+        }
+        if (reader->width() != window.width || reader->height() != window.height) {
+            refuse_to_go_on(options.file,
+                            fmt::format("it has sums of {}x{} pixels, and not of {}x{}", reader->width(),
+                                        reader->height(), window.width, window.height));
         }
         check_passes(reader->record(), options.file, options.first_pass, settings);
         start.checkpoint = Checkpoint{reader->record(), reader->read_sums()};

@@ -35,12 +35,16 @@ void refuse_existing_checkpoint(const std::filesystem::path& file, const char* a
 /// Error(ErrorKind::file) and, if it is one of `outputs`, Error(ErrorKind::invalid_argument).
 void check_checkpoint(const CheckpointOptions& options, const std::vector<std::string>& outputs);
 
+/// Warns of a --checkpoint-every that has nothing to write.
+void warn_of_idle_interval(const CheckpointOptions& options, const RenderSettings& settings);
+
 /// Opens the checkpoint to go on from, if that is wanted and there is one. Throws Error(ErrorKind::file).
 std::optional<CheckpointReader> open_checkpoint(const CheckpointOptions& options);
 
 /// Where the passes begin. Throws Error(ErrorKind::file) if the checkpoint belongs to another picture than
-/// `ours`, and Error(ErrorKind::invalid_argument) if it has more passes than are asked for.
+/// `ours`, or has not the size of the rendered part `window`, and Error(ErrorKind::invalid_argument) if it
+/// has more passes than are asked for.
 PassStart pass_start(const CheckpointOptions& options, std::optional<CheckpointReader>& reader,
-                     const CheckpointFacts& ours, const RenderSettings& settings);
+                     const CheckpointFacts& ours, const RenderSettings& settings, const PixelWindow& window);
 
 }  // namespace nearlight::core

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/files.h"
+#include "host/cli/checkpoint_file.h"
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"
@@ -223,6 +224,29 @@ TEST_F(CheckpointsOfRender, ThatAreDamagedAreRefused) {
         EXPECT_EQ(result.exit_code, 3) << place << result.errors;
         EXPECT_EQ(std::ranges::count(result.errors, '\n'), 1) << result.errors;
     }
+}
+
+TEST_F(CheckpointsOfRender, SayTheSameOfAPictureThatIsResumed) {
+    const std::string options = checkpoint("a") + "--spp 16 --direct-samples 64 --pass-spp 8,16 ";
+    const auto report = [&](const std::string& more) {
+        return nlohmann::json::parse(run_program(arguments("a", options + more)).output);
+    };
+    const nlohmann::json once = report("");
+    const nlohmann::json again = report("--resume");
+    for (const char* name : {"image_hash", "direct_samples_per_pixel", "clamp_radius", "splat", "refine"}) {
+        EXPECT_EQ(again[name], once[name]) << name;
+    }
+    EXPECT_EQ(once["direct_samples_per_pixel"], 64);
+    EXPECT_LE(once["seconds"]["first_rows"], once["seconds"]["total"]);
+}
+
+// Its header says the size of the picture, but its sums are those of a smaller one.
+TEST_F(CheckpointsOfRender, WithSumsOfAnotherSizeIsRefused) {
+    render("a", "--passes 2");
+    const CheckpointReader reader(file("a"));
+    write_checkpoint(file("b"), reader.facts(), reader.record(),
+                     PassSums(reader.width(), reader.height() / 2));
+    expect_refusal("b", "--resume --passes 3", 3, "it has sums of");
 }
 
 TEST_F(CheckpointsOfRender, CannotBeWhatThePictureIs) {

@@ -79,6 +79,22 @@ TEST(CheckpointFile, ThatContradictsItselfIsDamaged) {
     expect_damaged(contents);
 }
 
+TEST(CheckpointFile, WithNumbersThatSettingsCannotHaveIsDamaged) {
+    for (float RayBudget::*number : {&RayBudget::clamp_radius, &RayBudget::shared_limit}) {
+        Contents contents;
+        contents.record.choice->ray_budget.*number = -1.0f;
+        expect_damaged(contents);
+    }
+    Contents contents;
+    contents.record.choice->range = -1.0f;
+    expect_damaged(contents);
+    contents = {};
+    contents.record.choice->ray_budget.direct_samples_per_pixel = 2'000'000;
+    expect_damaged(contents);
+    contents.record = {.whole = {passes_of(3)}, .begun_samples = 100'000, .begun_rows = 1};
+    expect_damaged(contents);
+}
+
 TEST(CheckpointFile, WithListsInPlaceOfNamedFactsIsDamaged) {
     for (auto CheckpointFacts::*facts : {&CheckpointFacts::settings, &CheckpointFacts::maker}) {
         for (const char* text : {"[]", "[1, 2]", "null", "7"}) {
