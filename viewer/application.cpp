@@ -14,6 +14,7 @@
 #include "viewer/command_text.h"
 #include "viewer/imgui_versions.h"
 #include "viewer/screenshot.h"
+#include "viewer/task_scene.h"
 #include "viewer/vectors.h"
 
 namespace nearlight::viewer {
@@ -54,8 +55,8 @@ Application::Application(const ViewerTask& task, Window& window)
       tev_(task.tev.empty() ? nullptr
                             : std::make_unique<TevSender>(task.tev, task.scene.filename().string())),
       renderer_(
-          Devices::choose(task.device, task.device_options),
-          [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] { Window::wake(); }) {
+          Devices::choose(task.device, task.device_options), [&task] { return load_scene(task); },
+          task.settings, [] { Window::wake(); }) {
     state_.settings = task.settings;
     state_.display.layer = task.layer;
     state_.shows_vpls = task.shows_vpls;
@@ -292,8 +293,7 @@ void Application::apply(const Changes& changes) {
     }
     if (changes.copy_command) {
         window_.set_clipboard(command());
-        std::printf("%s\n", command().c_str());
-        std::fflush(stdout);
+        std::fprintf(stderr, "%s\n", command().c_str());
         state_.message = "copied, and printed to the terminal";
     }
     if (changes.save) {

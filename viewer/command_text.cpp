@@ -61,12 +61,15 @@ void add_sampling(std::string& line, const SamplingSettings& sampling) {
     if (sampling.sampler != otherwise.sampler) {
         line += std::string(" --sampler ") + name_of(sampling.sampler);
     }
-    // Other samplers ignore these two, but their options would be an error.
+    // Other samplers ignore these two, as `complete` ignores the fraction with cuts, but their options would
+    // be an error.
     if (sampling.sampler == SamplerKind::close_range) {
         if (sampling.policy != otherwise.policy) {
             line += std::string(" --policy ") + name_of(sampling.policy);
         }
-        add_option(line, "--close-fraction", sampling.close_fraction);
+        if (!(sampling.policy == Policy::complete && sampling.asks_part())) {
+            add_option(line, "--close-fraction", sampling.close_fraction);
+        }
     }
     add_option(line, "--vpls", sampling.vpl_count, otherwise.vpl_count);
     // The sampler `local` ignores cuts, but their options would be an error.
@@ -76,7 +79,7 @@ void add_sampling(std::string& line, const SamplingSettings& sampling) {
     }
 }
 
-void add_gather(std::string& line, const GatherSettings& gather) {
+void add_gather(std::string& line, const GatherSettings& gather, SamplerKind sampler) {
     const GatherSettings otherwise;
     add_option(line, "--spp", gather.samples_per_pixel, otherwise.samples_per_pixel);
     add_option(line, "--direct-samples", gather.direct_samples_per_pixel);
@@ -84,7 +87,9 @@ void add_gather(std::string& line, const GatherSettings& gather) {
     if (!gather.compensate) {
         line += " --compensate off";
     }
-    add_option(line, "--roulette", gather.roulette, otherwise.roulette);
+    if (sampler != SamplerKind::local) {
+        add_option(line, "--roulette", gather.roulette, otherwise.roulette);
+    }
 }
 
 }  // namespace
@@ -142,7 +147,7 @@ std::string command_text(std::span<const std::string> scene_arguments, const Ren
     }
     add_view(line, settings.view);
     add_sampling(line, settings.sampling);
-    add_gather(line, settings.gather);
+    add_gather(line, settings.gather, settings.sampling.sampler);
     add_option(line, "--seed", settings.seed, 0u);
     // Models have other defaults than Mitsuba's scenes, so the look is always said.
     line += " --exposure=" + text_of(look.exposure) + " --tonemap " + name_of(look.tone_curve);

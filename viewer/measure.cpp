@@ -13,6 +13,7 @@
 #include "nearlight/error.h"
 #include "viewer/camera_motion.h"
 #include "viewer/renderer.h"
+#include "viewer/task_scene.h"
 
 namespace nearlight::viewer {
 namespace {
@@ -56,8 +57,8 @@ class Hand {
         : task_(task),
           settings_(task.settings),
           renderer_(
-              Devices::choose(task.device, task.device_options),
-              [&task] { return Scene::load(task.scene, task.load); }, task.settings, [] {}) {}
+              Devices::choose(task.device, task.device_options), [&task] { return load_scene(task); },
+              task.settings, [] {}) {}
 
     /// Waits for the first picture and takes its camera. Returns false if the program is interrupted.
     bool take_camera() {

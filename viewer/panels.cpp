@@ -42,7 +42,7 @@ bool optional_slider(const char* label, std::optional<float>& value, float curre
     bool is_auto = !value;
     bool is_changed = ImGui::Checkbox("auto", &is_auto);
     if (is_changed) {
-        value = is_auto ? std::nullopt : std::optional(std::clamp(current, min, max));
+        value = is_auto ? std::nullopt : std::optional(std::max(current, min));
     }
     ImGui::SameLine();
     float number = value.value_or(current);

@@ -8,6 +8,8 @@ namespace {
 
 /// The set of VPLs has at least so many parts; a pixel asks one of them.
 constexpr std::uint32_t kMinStrata = kInterleave * kInterleave;
+/// More are refused by Session::gather().
+constexpr std::uint32_t kMaxStrata = 65536;
 /// A pixel of a quick picture asks about so many VPLs: fewer save little, because camera and light rays cost
 /// as much.
 constexpr std::uint32_t kQuickVpls = 8;
@@ -32,7 +34,7 @@ GatherSettings pass_gather(const RenderSettings& whole, StepKind kind) {
             share_of(settings.direct_samples_per_pixel.value_or(kDefaultDirectSamples), passes);
         settings.rays_per_pixel = share_of(settings.rays_per_pixel, passes);
     } else {
-        settings.strata = std::max(whole.sampling.vpl_count / kQuickVpls, kMinStrata);
+        settings.strata = std::clamp(whole.sampling.vpl_count / kQuickVpls, kMinStrata, kMaxStrata);
         settings.direct_samples_per_pixel = 1;
         settings.rays_per_pixel = 1;
     }

@@ -3,6 +3,7 @@
 // because nothing else needs the libraries of windows.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,12 +11,27 @@
 #include <vector>
 
 #include "nearlight/device.h"
+#include "nearlight/error.h"
 #include "nearlight/image.h"
 #include "nearlight/message.h"
 #include "nearlight/scene.h"
 #include "nearlight/settings.h"
 
 namespace nearlight::viewer {
+
+/// The largest picture that a window shows, in pixels. The viewer keeps a few pictures with all layers in
+/// memory, about 100 bytes a pixel each.
+inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
+
+/// Throws Error(ErrorKind::out_of_memory) for a picture of more than kMaxPixels.
+inline void check_size(int width, int height) {
+    if (std::int64_t{width} * height > kMaxPixels) {
+        throw Error(ErrorKind::out_of_memory, std::to_string(width) + "x" + std::to_string(height) +
+                                                  " pixels are too many for a window: the maximum is " +
+                                                  std::to_string(kMaxPixels >> 20) +
+                                                  " million; give a smaller --size");
+    }
+}
 
 /// A place in the finished picture.
 struct Pixel {

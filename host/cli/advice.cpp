@@ -26,6 +26,7 @@ constexpr std::array kAdvice{
     SettingAdvice{"segments", "`nearlight bench gather --dump` writes such a file"},
     SettingAdvice{"size", "give a --size of at least 1x1"},
     SettingAdvice{"strict", "without --strict it is a warning"},
+    SettingAdvice{"window", "see --crop"},
 };
 
 /// The option of a setting that has no advice of its own: most options have the setting's name.

@@ -44,6 +44,14 @@ bool has_cuts(const std::string& cuts, const RenderSettings& settings) {
         throw Error(ErrorKind::invalid_argument,
                     "the sampler " + to_string(sampling.sampler) + " takes neither --cuts nor --vpl-set");
     }
+    SamplingSettings with_cuts = sampling;
+    with_cuts.cuts = wanted;
+    if (sampling.close_fraction && sampling.policy == Policy::complete && with_cuts.asks_part()) {
+        throw Error(
+            ErrorKind::invalid_argument,
+            "--close-fraction cannot be combined with --cuts or --vpl-set, because the policy complete "
+            "then takes its VPLs from the whole scene alike");
+    }
     return wanted;
 }
 

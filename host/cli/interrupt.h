@@ -6,7 +6,8 @@ namespace nearlight::core {
 
 /// After this call a first SIGINT, SIGTERM or SIGHUP only makes interrupted() true. Another one ends the program
 /// if it comes more than 0.3 seconds later. SIGHUP stays ignored if it is. A command that calls this must check
-/// interrupted() several times a second.
+/// interrupted() between its steps, most of which take less than a second; making the VPLs of a pass is one, which
+/// takes longer where VPLs are many.
 void catch_interrupts();
 /// Whether one of these signals came since catch_interrupts().
 [[nodiscard]] bool interrupted();

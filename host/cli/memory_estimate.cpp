@@ -27,7 +27,7 @@ constexpr std::uint64_t kReceiverBytes =
 std::uint64_t pixel_bytes(const SceneCamera& camera) {
     constexpr std::uint64_t kLayers = (NEARLIGHT_FILM_CHANNELS + NEARLIGHT_LAYER_CHANNELS) * sizeof(float);
     constexpr std::uint64_t kRefinement = 2 * (sizeof(CameraLight) + sizeof(uint));
-    const uint reach = splat_reach(camera, {});
+    const uint reach = splat_reach(camera.filter, {});
     const std::uint64_t splats = reach == 0
                                      ? 0
                                      : splats_per_pixel(reach) * (sizeof(Splat) + 2 * sizeof(CameraSplat)) +

@@ -157,6 +157,10 @@ void settle(const MethodTexts& texts, RenderSettings& settings) {
     settings.view.range = number_or_auto("--range", texts.range, 1e-6f, kMaxLength);
     settings.view.clamp_radius = number_or_auto("--clamp-radius", texts.clamp_radius, 0.0f, kMaxLength);
     settings.sampling.cuts = has_cuts(texts.cuts, settings);
+    if (settings.gather.roulette > 0.0f && sampler_entry(settings.sampling.sampler).makes_local_lights) {
+        throw Error(ErrorKind::invalid_argument,
+                    "the sampler " + to_string(settings.sampling.sampler) + " takes no --roulette");
+    }
 }
 
 }  // namespace nearlight::core

@@ -74,10 +74,10 @@ void warn_of_idle_options(const PictureOptions& options) {
     const bool has_png = has_outputs(options, ".png");
     const bool names_exr = options.is_full_precision || options.compression != ExrCompression::zip;
     const bool names_look = !options.screen.exposure.empty() || options.screen.curve;
-    if (has_png && !has_exr && names_exr) {
+    if (!has_exr && names_exr) {
         spdlog::warn("--exr-precision and --exr-compression change nothing: no output is an EXR file");
     }
-    if (has_exr && !has_png && names_look) {
+    if (!has_png && names_look) {
         spdlog::warn("--exposure and --tonemap change nothing: no output is a PNG file");
     }
 }

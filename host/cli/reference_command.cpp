@@ -126,9 +126,10 @@ double noise(const Image& image) {
 }
 
 nlohmann::ordered_json to_json(const ReferenceOptions& options, const Scene& scene,
-                               const PathTracerSettings& settings, const Outcome& outcome) {
+                               const PathTracerSettings& settings, const Outcome& outcome,
+                               std::span<const std::filesystem::path> written) {
     nlohmann::ordered_json outputs = nlohmann::ordered_json::array();
-    for (const std::filesystem::path& output : options.outputs) {
+    for (const std::filesystem::path& output : written) {
         outputs.push_back(output.string());
     }
     return {{"scene", options.scene.file.string()},
@@ -229,7 +230,7 @@ ExitCode run_reference(const ReferenceOptions& options, const GlobalOptions& glo
         spdlog::info("interrupted before all pixels had a sample; older pictures were kept");
     }
     if (global.json) {
-        print_json(to_json(options, scene, settings, outcome));
+        print_json(to_json(options, scene, settings, outcome, written));
     }
     return outcome.stopped ? ExitCode::interrupted : ExitCode::done;
 }

@@ -54,12 +54,13 @@ ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, 
                      Helpers* helpers) {
     check_outputs(options.picture);
     check_checkpoint(options.checkpoint, options.picture.outputs);
+    warn_of_idle_interval(options.checkpoint, settled(options));
     std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
     const Stopwatch total;
     RowSinks sinks(options);
     RenderRun run = get_ready(options, global, choice);
     PictureStart start{.facts = run.facts()};
-    start.passes = pass_start(options.checkpoint, reader, start.facts, run.settings);
+    start.passes = pass_start(options.checkpoint, reader, start.facts, run.settings, run.window());
     catch_interrupts();
     Session session(run.plain_devices(), *run.scene, options.session);
     if (helpers != nullptr) {

@@ -145,7 +145,6 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
                 spdlog::info("exposure {:+.2f} stops (automatic) in all frames", exposure);
             }
             sinks.picture.set_outputs(run.options.picture.outputs);
-            sinks.first_rows = {};
             MadePicture picture = make_picture(walk.session(), run, {.vpls = walk.vpl_maker()}, sinks, total);
             if (picture.report.interrupted) {
                 break;

@@ -60,12 +60,21 @@ void add_passes(nlohmann::ordered_json& json, const RenderSettings& settings, co
     json["relative_error_asked"] = or_null(settings.error);
 }
 
+/// Whether pixels ask about a part of the set only. A file of VPLs says so itself.
+bool has_cuts(const SamplingSettings& sampling, const RenderReport& report) {
+    return sampling.file.empty() ? sampling.cuts : report.asked_count > 0;
+}
+
 void add_vpls(nlohmann::ordered_json& json, const RenderSettings& settings, const RenderReport& report) {
-    json["vpls"] = {
-        {"requested", settings.sampling.vpl_count},  {"set", settings.sampling.set_count_or_auto()},
-        {"close", report.totals.close_vpls},         {"distant", report.totals.distant_vpls},
-        {"sparse", report.totals.sparse_vpls},       {"candidates", report.totals.candidates},
-        {"local_lights", report.totals.local_lights}};
+    const bool is_loaded = !settings.sampling.file.empty();
+    const std::size_t count = report.totals.close_vpls + report.totals.distant_vpls;
+    json["vpls"] = {{"requested", is_loaded ? nlohmann::ordered_json() : nlohmann::ordered_json(settings.sampling.vpl_count)},
+                    {"set", is_loaded ? count : settings.sampling.set_count_or_auto()},
+                    {"close", report.totals.close_vpls},
+                    {"distant", report.totals.distant_vpls},
+                    {"sparse", report.totals.sparse_vpls},
+                    {"candidates", report.totals.candidates},
+                    {"local_lights", report.totals.local_lights}};
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
 }
@@ -77,14 +86,14 @@ void add_method(nlohmann::ordered_json& json, const RenderFacts& facts) {
     json["rays_per_pixel"] = settings.gather.rays_per_pixel;
     json["direct_samples_per_pixel"] = report.ray_budget.direct_samples_per_pixel;
     json["compensate"] = settings.gather.compensate;
-    json["refine"] = settings.gather.refine;
-    json["splat"] = settings.gather.splat;
+    json["refine"] = has_refinement(report, settings.gather);
+    json["splat"] = has_splats(report, settings.gather);
     json["glass"] = glass_name(facts.scene.clear_glass);
     json["max_depth"] = report.max_depth;
-    json["filter"] = to_string(report.filter);
+    json["filter"] = to_string(report.filter.kind);
     json["seed"] = settings.seed;
     json["bvh"] = to_string(facts.bvh);
-    json["cuts"] = settings.sampling.cuts;
+    json["cuts"] = has_cuts(settings.sampling, report);
     json["roulette"] = settings.gather.roulette;
     json["denoiser"] = facts.picture.denoiser();
 }
@@ -146,9 +155,12 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     if (!settings.sampling.file.empty()) {
         metadata["nearlight:vplFile"] = settings.sampling.file.string();
     }
-    metadata["nearlight:vpls"] = count_value(report.totals.close_vpls + report.totals.distant_vpls);
-    metadata["nearlight:vplsAsked"] = static_cast<int>(settings.sampling.vpl_count);
-    metadata["nearlight:cuts"] = settings.sampling.cuts ? "on" : "off";
+    const std::uint64_t vpls = report.totals.close_vpls + report.totals.distant_vpls;
+    const std::uint64_t of_file = report.asked_count > 0 ? report.asked_count : vpls;
+    metadata["nearlight:vpls"] = count_value(vpls);
+    metadata["nearlight:vplsAsked"] =
+        count_value(settings.sampling.file.empty() ? settings.sampling.vpl_count : of_file);
+    metadata["nearlight:cuts"] = has_cuts(settings.sampling, report) ? "on" : "off";
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:preview"] = settings.gather.interleave > 1 ? "on" : "off";
@@ -163,8 +175,8 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:directSamplesPerPixel"] =
         static_cast<int>(report.ray_budget.direct_samples_per_pixel);
     metadata["nearlight:compensate"] = settings.gather.compensate ? "on" : "off";
-    metadata["nearlight:refine"] = settings.gather.refine ? "on" : "off";
-    metadata["nearlight:splat"] = settings.gather.splat ? "on" : "off";
+    metadata["nearlight:refine"] = has_refinement(report, settings.gather) ? "on" : "off";
+    metadata["nearlight:splat"] = has_splats(report, settings.gather) ? "on" : "off";
     metadata["nearlight:glass"] = glass_name(scene.clear_glass);
     metadata["nearlight:range"] = report.range;
     metadata["nearlight:maxDepth"] = static_cast<int>(report.max_depth);

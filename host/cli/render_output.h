@@ -33,13 +33,12 @@ struct FirstRows {
 
     /// Records the times; only the first call has an effect.
     void note(const Stopwatch& since_begin);
-    [[nodiscard]] bool have_come() const { return seconds > 0.0; }
 };
 
 /// What the object of `render --json` is made of.
 struct RenderFacts {
     const SceneOptions& scene;
-    const std::vector<std::string>& outputs;
+    std::vector<std::string> outputs;  ///< files that were written
     const RenderSettings& settings;
     BvhQuality bvh;
     const RenderReport& report;

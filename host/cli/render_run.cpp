@@ -21,6 +21,14 @@ namespace {
 /// --exr-precision float; a larger size is probably a typing error.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 
+/// The part of the picture that is rendered. Throws Error(ErrorKind::invalid_argument) if it is not within
+/// it.
+PixelWindow window_in(const Scene& scene, const RenderSettings& settings) {
+    return window_of(static_cast<uint>(settings.view.width.value_or(scene.camera.width)),
+                     static_cast<uint>(settings.view.height.value_or(scene.camera.height)),
+                     settings.gather.window);
+}
+
 /// Warns about questionable requests, and refuses pictures of more than kMaxPixels.
 void check_request(const Scene& scene, const RenderSettings& settings) {
     const int width = settings.view.width.value_or(scene.camera.width);
@@ -30,7 +38,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
                     fmt::format("{}x{} pixels are too many: the maximum is {} million", width, height,
                                 kMaxPixels >> 20));
     }
-    window_of(static_cast<uint>(width), static_cast<uint>(height), settings.gather.window);
+    static_cast<void>(window_in(scene, settings));
     if (settings.sampling.vpl_count == 0 && settings.sampling.file.empty()) {
         spdlog::warn("with --vpls 0 the picture has no indirect light");
     }
@@ -173,15 +181,17 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
 nlohmann::ordered_json json_of(const RenderRun& run, const RenderReport& report, const RowSinks& sinks,
                                bool has_checkpoint) {
     const RenderOptions& options = run.options;
-    nlohmann::ordered_json json = render_json({.scene = options.scene,
-                                               .outputs = options.picture.outputs,
-                                               .settings = run.settings,
-                                               .bvh = options.session.bvh_quality,
-                                               .report = report,
-                                               .picture = sinks.picture,
-                                               .load_seconds = run.load_seconds,
-                                               .first_rows = sinks.first_rows,
-                                               .devices = run.devices});
+    const bool is_written = sinks.has_rows || !report.interrupted;
+    nlohmann::ordered_json json =
+        render_json({.scene = options.scene,
+                     .outputs = is_written ? options.picture.outputs : std::vector<std::string>(),
+                     .settings = run.settings,
+                     .bvh = options.session.bvh_quality,
+                     .report = report,
+                     .picture = sinks.picture,
+                     .load_seconds = run.load_seconds,
+                     .first_rows = sinks.first_rows,
+                     .devices = run.devices});
     json["first_pass"] = options.checkpoint.first_pass;
     json["checkpoint"] = has_checkpoint ? nlohmann::ordered_json(options.checkpoint.file.string()) : nullptr;
     if (run.frame) {
@@ -238,6 +248,10 @@ Metadata RenderRun::metadata(const RenderReport& report, const View& view) const
     return metadata;
 }
 
+PixelWindow RenderRun::window() const {
+    return window_in(*scene, settings);
+}
+
 CheckpointFacts RenderRun::facts() const {
     return options.checkpoint.file.empty()
                ? CheckpointFacts()
@@ -279,18 +293,23 @@ void RowSinks::open(const RenderRun& run, const RenderReport& report, const View
 
 void RowSinks::add_rows(std::span<const float> rows, const Stopwatch& since_begin) {
     first_rows.note(since_begin);
+    has_rows = true;
     picture.add_rows(rows);
     tev.add_rows(rows);
 }
 
 MadePicture make_picture(Session& session, const RenderRun& run, PictureStart start, RowSinks& sinks,
                          const Stopwatch& since_begin) {
+    sinks.first_rows = {};
+    sinks.has_rows = false;
     auto notice = std::make_unique<CompileNotice>(*run.devices.front());
     ProgressBar bar(bar_label(run), run.global, known_passes(run.settings));
     PictureKeeper keeper = make_keeper(session, run, start.facts, sinks, bar, since_begin);
     // The file of a frame says that it is finished, so none is there before.
-    const PassWatcher watcher =
-        run.frame ? PassWatcher() : [&](const PassesSoFar& so_far) { keeper.watch(so_far); };
+    const PassWatcher watcher = run.frame ? PassWatcher() : [&](const PassesSoFar& so_far) {
+        sinks.first_rows.note(since_begin);
+        keeper.watch(so_far);
+    };
     const double seconds_before = since_begin.seconds();
     RenderHooks hooks{.forecast = tell_once(bar, bar_label(run), run.settings, seconds_before),
                       .watcher = watcher,
@@ -310,7 +329,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
         render(session, in_time_left(run.settings, seconds_before), hooks, std::move(start.passes));
     bar.clear();
     // Without any row, files that are there are better than black ones.
-    const bool has_rows = sinks.first_rows.have_come() || !report.interrupted;
+    const bool has_rows = sinks.has_rows || !report.interrupted;
     if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
         sinks.picture.commit(since_begin, false,

@@ -69,6 +69,8 @@ struct RenderRun {
     [[nodiscard]] ScreenLook look() const { return screen_look(options.picture.screen, *scene); }
     [[nodiscard]] std::vector<MatteLayer> mattes() const { return matte_layers(options.picture.layers); }
     [[nodiscard]] Metadata metadata(const RenderReport& report, const View& view) const;
+    /// The part of the picture that is rendered.
+    [[nodiscard]] PixelWindow window() const;
     /// What checkpoints say of the picture; nothing if there are none.
     [[nodiscard]] CheckpointFacts facts() const;
     /// Computes the hash of the scene in the background, for metadata and checkpoints.
@@ -83,7 +85,8 @@ struct RowSinks {
     RenderedPicture picture;
     TevPicture tev;
     FirstRows first_rows{};
-    Camera camera{};  ///< of the picture
+    bool has_rows = false;  ///< whether the files of the present picture have rows
+    Camera camera{};        ///< of the picture
 
     explicit RowSinks(const RenderOptions& options);
     void open(const RenderRun& run, const RenderReport& report, const View& view);

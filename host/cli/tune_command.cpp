@@ -69,18 +69,22 @@ std::string to_text(const TunerTrial& trial) {
     return text;
 }
 
-ExitCode reset(const Device& device) {
+ExitCode reset(const Device& device, const GlobalOptions& global) {
     const std::filesystem::path file = tunables_file(device.entry(), device.options().cache_dir);
     std::error_code ignored;
     const bool removed = !file.empty() && std::filesystem::remove(file, ignored);
     spdlog::info("{}", removed ? "removed " + file.string() : "nothing is stored for " + device.name());
+    if (global.json) {
+        print_json({{"device", device.name()},
+                    {"removed", removed ? nlohmann::ordered_json(file.string()) : nlohmann::ordered_json()}});
+    }
     return ExitCode::done;
 }
 
 ExitCode run_tune(const TuneOptions& options, const GlobalOptions& global) {
     const std::unique_ptr<Device> device = open_device(with_compile_workers(options.device));
     if (options.reset) {
-        return reset(*device);
+        return reset(*device, global);
     }
     const std::string file =
         options.dry_run ? "" : tunables_file(device->entry(), device->options().cache_dir).string();

@@ -29,10 +29,6 @@ namespace {
 /// The module is found by the run path of the program, as that of images is (host/image/image_codec.h).
 constexpr const char* kModule = "nearlight-viewer.so";
 
-/// Maximum number of pixels: the viewer keeps a few pictures with all layers in memory, about 100 bytes a
-/// pixel each.
-constexpr std::int64_t kMaxWindowPixels = std::int64_t{1} << 25;
-
 struct ViewOptions {
     SceneOptions scene;
     DeviceChoice device;
@@ -152,11 +148,7 @@ std::size_t layer_index(const std::string& name) {
 RenderSettings settled(const ViewOptions& options) {
     RenderSettings settings = options.settings;
     settle(options.method, settings);
-    if (std::int64_t{options.size.width} * options.size.height > kMaxWindowPixels) {
-        throw Error(ErrorKind::out_of_memory,
-                    fmt::format("{}x{} pixels are too many for a window: the maximum is {} million",
-                                options.size.width, options.size.height, kMaxWindowPixels >> 20));
-    }
+    viewer::check_size(options.size.width, options.size.height);
     if (options.size.width > 0) {
         settings.view.width = options.size.width;
         settings.view.height = options.size.height;
@@ -222,6 +214,11 @@ ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
     }
     if (options.measures) {
         tell(report, global);
+    } else if (global.json) {
+        print_json(
+            {{"scene", task.scene.string()},
+             {"screenshot", task.screenshot.empty() ? nlohmann::ordered_json()
+                                                    : nlohmann::ordered_json(task.screenshot.string())}});
     }
     return ExitCode::done;
 }

@@ -193,11 +193,6 @@ void TevLink::update(const std::string& name, int first, int width, std::span<co
     }
 }
 
-void TevLink::show(const std::string& name, const Image& image) {
-    create(name, image.width, image.height, image.channels);
-    update(name, 0, image.width, image.channels, image.values);
-}
-
 void TevLink::send(std::span<const char> packet) {
     while (!packet.empty()) {
         const ssize_t sent = ::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL);

@@ -29,8 +29,6 @@ class TevLink {
     /// Replaces whole rows of a picture that was created, from row `first` on. `values` are interleaved.
     void update(const std::string& name, int first, int width, std::span<const std::string> channels,
                 std::span<const float> values);
-    /// Creates the picture and sends all of it.
-    void show(const std::string& name, const Image& image);
 
   private:
     void send(std::span<const char> packet);

@@ -36,13 +36,19 @@ std::string start(int& rank, int& count, std::string& host) {
     return {};
 }
 
+/// A message under way, or one that MPI did not take.
+struct Transfer {
+    MPI_Request request = MPI_REQUEST_NULL;
+    bool is_lost = false;
+};
+
 void* begin_send(int to, std::span<const std::byte> bytes) {
     MPI_Request request = MPI_REQUEST_NULL;
     if (MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD, &request) !=
         MPI_SUCCESS) {
         return nullptr;
     }
-    return new MPI_Request(request);
+    return new Transfer{.request = request};
 }
 
 /// MPI_Recv would wait for ever for the rest of a message whose sender died after its head was here.
@@ -59,20 +65,20 @@ void* begin_receive(int& from, std::vector<std::byte>& bytes) {
     bytes.resize(static_cast<std::size_t>(size));
     from = status.MPI_SOURCE;
     MPI_Request request = MPI_REQUEST_NULL;
-    if (MPI_Imrecv(bytes.data(), size, MPI_BYTE, &message, &request) != MPI_SUCCESS) {
-        return nullptr;
-    }
-    return new MPI_Request(request);
+    // MPI_Improbe has taken the message already, so nobody else can receive it.
+    const bool is_lost = MPI_Imrecv(bytes.data(), size, MPI_BYTE, &message, &request) != MPI_SUCCESS;
+    return new Transfer{.request = request, .is_lost = is_lost};
 }
 
 TransferState state_of(void* transfer) {
-    auto* const request = static_cast<MPI_Request*>(transfer);
+    auto* const message = static_cast<Transfer*>(transfer);
     int done = 0;
-    const bool failed = MPI_Test(request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS;
+    const bool failed =
+        message->is_lost || MPI_Test(&message->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS;
     if (!failed && done == 0) {
         return TransferState::under_way;
     }
-    delete request;
+    delete message;
     return failed ? TransferState::failed : TransferState::done;
 }
 

@@ -49,11 +49,6 @@ CameraBatch with_light(CameraBatch batch, const PictureTask& picture, const Rece
     return batch;
 }
 
-/// Whether pixels may get more camera paths than others.
-bool refines(const PictureTask& picture) {
-    return picture.settings.refine && picture.settings.samples_per_pixel >= kMinRefinedSamples;
-}
-
 std::size_t pixels_per_band(const PictureTask& picture) {
     return static_cast<std::size_t>(picture.plan.cover.width) * picture.plan.tile_rows_per_band *
            NEARLIGHT_TILE_SIZE;
@@ -114,7 +109,7 @@ BandRenderer::BandRenderer(BandStages& stages, const DeviceScene& scene, const P
         }
         cut_tree_ = stages.light_cuts->make_tree(this->vpls().buffer(), this->vpls().count());
     }
-    if (refines(picture)) {
+    if (may_refine(picture.settings)) {
         if (!stages.refinement) {
             stages.refinement.emplace(stages.device);
         }

@@ -21,6 +21,11 @@ struct RefinementStages {
 /// With fewer samples a pixel, their variance is too uncertain to choose by.
 inline constexpr uint kMinRefinedSamples = 4;
 
+/// Whether pixels may get more camera paths than others.
+inline bool may_refine(const GatherSettings& settings) {
+    return settings.refine && settings.samples_per_pixel >= kMinRefinedSamples;
+}
+
 /// How much a refinement has to do.
 struct RefinementSize {
     std::size_t max_pixels = 0;   ///< of a band

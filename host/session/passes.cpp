@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "host/base/division.h"
 #include "host/base/limits.h"
@@ -11,10 +12,10 @@
 namespace nearlight::core {
 namespace {
 
-/// `number` · part / whole, rounded up, and at least 1.
-uint part_of(uint number, uint part, uint whole) {
+/// `number` · part / whole, rounded up, at least 1 and at most `max`.
+uint part_of(uint number, uint part, uint whole, uint max) {
     const std::uint64_t product = std::uint64_t{number} * part;
-    return static_cast<uint>(std::max<std::uint64_t>(divide_rounding_up(product, whole), 1));
+    return static_cast<uint>(std::clamp<std::uint64_t>(divide_rounding_up(product, whole), 1, max));
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ RenderSettings with_samples(RenderSettings settings, uint samples) {
         return settings;
     }
     const uint strata = gather.strata_or_auto();
-    const uint fewer_strata = part_of(strata, samples, whole);
+    const uint fewer_strata = part_of(strata, samples, whole, std::numeric_limits<uint>::max());
     // A sample asks vpl_count / strata VPLs, so these two keep their quotient, as far as whole VPLs and the
     // limit of a set allow.
     const auto fewer = [&](uint count) {
@@ -59,9 +60,10 @@ RenderSettings with_samples(RenderSettings settings, uint samples) {
     }
     gather.strata = fewer_strata;
     if (gather.direct_samples_per_pixel) {
-        gather.direct_samples_per_pixel = part_of(*gather.direct_samples_per_pixel, samples, whole);
+        gather.direct_samples_per_pixel =
+            part_of(*gather.direct_samples_per_pixel, samples, whole, kMaxLightSamples);
     }
-    gather.rays_per_pixel = part_of(gather.rays_per_pixel, samples, whole);
+    gather.rays_per_pixel = part_of(gather.rays_per_pixel, samples, whole, kMaxLightSamples);
     gather.samples_per_pixel = samples;
     return settings;
 }

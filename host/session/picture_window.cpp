@@ -17,7 +17,8 @@ PixelWindow window_of(uint width, uint height, const std::optional<PixelWindow>&
                     "the part of " + std::to_string(window.width) + "x" + std::to_string(window.height) +
                         " pixels at " + std::to_string(window.x) + "," + std::to_string(window.y) +
                         " is not within the picture of " + std::to_string(width) + "x" +
-                        std::to_string(height));
+                        std::to_string(height),
+                    "window");
     }
     return window;
 }

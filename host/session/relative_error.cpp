@@ -49,8 +49,8 @@ std::vector<float> error_norms(std::span<const float> beauty, uint width) {
 double relative_error(std::span<const float> variances, std::span<const float> norms) {
     std::vector<double> quotients(variances.size() / kErrorChannels);
     for (std::size_t i = 0; i < quotients.size() * kErrorChannels; ++i) {
-        if (variances[i] > 0.0f) {
-            quotients[i / kErrorChannels] += double{variances[i]} / std::max(norms[i], 1e-30f);
+        if (variances[i] > 0.0f && norms[i] > 0.0f) {
+            quotients[i / kErrorChannels] += double{variances[i]} / double{norms[i]};
         }
     }
     const std::size_t kept = quotients.size() - quotients.size() / kPixelsPerOutlier;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/session/render.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/base/hash.h"
 #include "host/base/stopwatch.h"
+#include "host/session/camera_refinement.h"
 #include "host/session/passes.h"
 #include "host/session/render_passes.h"
 #include "host/session/render_steps.h"
+#include "host/session/splat_rows.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -33,13 +36,26 @@ void refuse_passes_of_a_file(const RenderSettings& settings, bool has_passes) {
 /// Makes a picture of `samples` per pixel, which may be more or fewer than the settings say.
 void render_once(Session& session, const RenderSettings& settings, uint samples, const RenderHooks& hooks,
                  RenderReport& report) {
-    Prepared pass = prepare(session, with_samples(settings, samples), hooks.vpls, report);
+    Prepared pass = prepare(session, with_samples(settings, samples), hooks.vpls);
+    note_pass(settings, pass, report);
     scale_light_samples(settings, pass);
     hooks.open(report, pass.view, pass.vpls);
     gather(session, pass, hooks.rows, hooks.progress, report);
 }
 
 }  // namespace
+
+bool has_splats(const RenderReport& report, const GatherSettings& settings) {
+    return std::ranges::any_of(report.pass_samples, [&](uint samples) {
+        return splat_reach(report.filter, with_samples({.gather = settings}, samples).gather) > 0;
+    });
+}
+
+bool has_refinement(const RenderReport& report, const GatherSettings& settings) {
+    return std::ranges::any_of(report.pass_samples, [&](uint samples) {
+        return may_refine(with_samples({.gather = settings}, samples).gather);
+    });
+}
 
 bool averages_passes(const RenderSettings& settings, const PassStart& pass_start) {
     return may_have_passes(settings) || !pass_start.is_plain();

@@ -31,7 +31,7 @@ struct RenderReport {
     float range = 0;  ///< distance at which the close range ends, m
     RayBudget ray_budget{};
     uint max_depth = 0;  ///< maximum path length, as Mitsuba counts it
-    FilterKind filter = FilterKind::box;
+    PixelFilter filter{};
     uint passes = 0;                 ///< number of passes that were begun
     std::vector<uint> pass_samples;  ///< samples per pixel of each of them
     /// What relative_error() says of the picture; empty unless RenderSettings::error asked for it and a
@@ -39,12 +39,19 @@ struct RenderReport {
     std::optional<double> error;
     PassTotals totals{};       ///< of all passes together
     float close_fraction = 0;  ///< share of close-range VPLs in the first pass
+    /// VPLs that a pixel asks about where the set has more; 0: it asks about all, or no pass was made here.
+    std::size_t asked_count = 0;
     RenderSeconds seconds;
     std::vector<BandShare> shares;  ///< the part that each device had in the picture
     std::size_t device_bytes = 0;   ///< peak allocation, all devices together
     std::uint64_t image_hash = 0;   ///< hash of the beauty's bits; equal pictures have equal hashes
     bool interrupted = false;       ///< the last pass is incomplete; rows that no pass reached were not sent
 };
+
+/// Whether samples count in neighbouring pixels in any pass of the picture.
+bool has_splats(const RenderReport& report, const GatherSettings& settings);
+/// Whether pixels may have got more camera paths than others in any pass of the picture.
+bool has_refinement(const RenderReport& report, const GatherSettings& settings);
 
 /// Called when all settings are decided and before the first row, so that files can be opened with the right
 /// size and metadata. View and VPLs are those of the first pass. If there are several passes, it is called

@@ -105,9 +105,9 @@ Passes begin_passes(Session& session, const RenderSettings& settings, const VplM
     }
     if (passes.first > 0 && !passes.choice) {
         // Pass 0 is taken to have all samples of a pass, as it has without a time or --pass-spp.
-        RenderReport of_pass_0;
-        passes.choice = choice_of(prepare(session, settings, vpls, of_pass_0), settings);
-        report.seconds.generate += of_pass_0.seconds.generate;
+        const Prepared pass_0 = prepare(session, settings, vpls);
+        passes.choice = choice_of(pass_0, settings);
+        report.seconds.generate += pass_0.seconds;
     }
     return passes;
 }
@@ -190,7 +190,7 @@ Prepared begin_pass(Session& session, const RenderSettings& settings, uint numbe
     Prepared pass = ready ? std::move(*ready)
                           : prepare_pass(session, pass_settings(settings, number, samples, passes.choice),
                                          passes.choice, vpls);
-    note_pass(pass, report);
+    note_pass(settings, pass, report);
     if (!passes.choice) {
         scale_light_samples(settings, pass);
     }

@@ -14,7 +14,7 @@ namespace {
 void note_view(const View& view, RenderReport& report) {
     report.range = view.close_range.range;
     report.max_depth = view.max_depth;
-    report.filter = view.scene_camera.filter.kind;
+    report.filter = view.scene_camera.filter;
 }
 
 /// The settings of the view, without a pilot that has nothing to decide, as in all passes but the first.
@@ -36,14 +36,15 @@ View look(Session& session, const RenderSettings& settings, RenderReport& report
     return view;
 }
 
-void note_pass(const Prepared& pass, RenderReport& report) {
+void note_pass(const RenderSettings& whole, const Prepared& pass, RenderReport& report) {
     if (report.passes++ == 0) {
         const PixelWindow window = window_of(pass.view, pass.settings.gather);
         report.width = static_cast<int>(window.width);
         report.height = static_cast<int>(window.height);
         note_view(pass.view, report);
-        report.ray_budget = budget_of(pass.view, pass.vpls, pass.settings.gather);
+        report.ray_budget = budget_of(pass.view, pass.vpls, whole.gather);
         report.close_fraction = pass.vpls.close_fraction;
+        report.asked_count = pass.vpls.asked_count;
     }
     report.pass_samples.push_back(pass.settings.gather.samples_per_pixel);
     report.totals.close_vpls += pass.vpls.close_count;
@@ -70,13 +71,6 @@ void scale_light_samples(const RenderSettings& whole, Prepared& pass) {
     GatherSettings& gather = pass.settings.gather;
     gather.direct_samples_per_pixel =
         with_samples(std::move(decided), gather.samples_per_pixel).gather.direct_samples_per_pixel;
-}
-
-Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
-                 RenderReport& report) {
-    Prepared pass = prepare(session, settings, vpls);
-    note_pass(pass, report);
-    return pass;
 }
 
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,

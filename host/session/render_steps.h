@@ -23,12 +23,9 @@ Prepared prepare(Session& session, const RenderSettings& settings, const VplMake
 /// Gives a pass its part of the light samples that the pilot chose for it, which are those of all samples of
 /// a pixel that `whole` has.
 void scale_light_samples(const RenderSettings& whole, Prepared& pass);
-/// Looks at the scene, makes VPLs, and notes them in the report as the beginning of a pass.
-Prepared prepare(Session& session, const RenderSettings& settings, const VplMaker& vpls,
-                 RenderReport& report);
-
-/// Adds a pass to the report: the settings that were decided, and the number of VPLs.
-void note_pass(const Prepared& pass, RenderReport& report);
+/// Adds a pass to the report: the number of VPLs, and, for the first pass, what was decided for all samples
+/// of a pixel that `whole` has.
+void note_pass(const RenderSettings& whole, const Prepared& pass, RenderReport& report);
 
 /// Gathers the rows of the pass. `next` is PictureSequence::next.
 void gather(Session& session, const Prepared& pass, const RowSink& sink, const WorkProgress& progress,

@@ -88,7 +88,7 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
     }
     const PixelWindow window = window_of(view, settings);
     Camera camera = view.camera;
-    camera.splat_reach = splat_reach(view.scene_camera, settings);
+    camera.splat_reach = splat_reach(view.scene_camera.filter, settings);
     std::vector<RemoteDevice> devices = own_devices();
     devices.insert(devices.end(), remote_.devices.begin(), remote_.devices.end());
     std::vector<std::size_t> batch_receivers;

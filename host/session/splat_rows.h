@@ -15,9 +15,10 @@ namespace nearlight::core {
 /// With fewer samples a pixel, their weights add up to too different sums.
 inline constexpr uint kMinSplattedSamples = 4;
 
-/// Camera::splat_reach for pictures of a camera: 0 if samples count in their own pixel alone. That is so for
-/// filters that reach no other pixel or reach too far, and where the settings ask for it or have few samples.
-uint splat_reach(const SceneCamera& camera, const GatherSettings& settings);
+/// Camera::splat_reach for pictures with a filter: 0 if samples count in their own pixel alone. That is so
+/// for filters that reach no other pixel or reach too far, and where the settings ask for it or have few
+/// samples.
+uint splat_reach(const PixelFilter& filter, const GatherSettings& settings);
 
 /// The floats that a device delivers for each pixel of a band: the layers, and after those of all pixels
 /// splat_rows() RowSplats for each, if `reach` is above 0.

@@ -262,6 +262,8 @@ VplSet vpl_set_of(Device& device, const VplFile& file) {
     if (file.origin) {
         set.close_count = std::min(file.origin->close_count, file.vpls.size());
         set.distant_count -= set.close_count;
+        set.close_fraction = static_cast<float>(set.close_count) /
+                             static_cast<float>(std::max<std::size_t>(file.vpls.size(), 1));
         set.asked_count = file.origin->asked_count < file.vpls.size() ? file.origin->asked_count : 0;
         set.ray_budget = file.origin->ray_budget;
     }

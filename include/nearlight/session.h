@@ -91,16 +91,18 @@ class NEARLIGHT_API VplSet {
 struct Picture {
     /// The pixels, with the channels of picture_channels(). Rows that were not reached are 0.
     Image image{};
-    std::uint32_t passes = 1;   ///< number of passes that it is the mean of
+    std::uint32_t passes = 1;   ///< number of passes that were begun; it is the mean of those
     std::size_t vpl_count = 0;  ///< number of VPLs in all passes together
     bool interrupted = false;   ///< the callback stopped it before the end
-    /// The samples per pixel of each pass; empty for the picture of a gather.
+    /// The samples per pixel of each of these passes; empty for the picture of a gather. Where the callback
+    /// stopped the last pass, rows that it did not reach are the mean of the others.
     std::vector<std::uint32_t> pass_samples{};
     std::optional<double> error{};  ///< the relative error, if RenderSettings::error asked for it
 };
 
-/// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. It is called several times a
-/// second in the thread that asked for the work, and must not throw.
+/// Takes how far a piece of work is, from 0 to 1, and returns false to stop it. It is called in the thread
+/// that asked for the work, several times a second while rows are gathered and not while the VPLs of a pass
+/// are made, and must not throw.
 using Progress = std::function<bool(double fraction)>;
 
 /// Takes the next finished rows, from top to bottom: a multiple of width · picture_channels().size() floats.

@@ -60,17 +60,18 @@ struct CameraPose {
 /// What to look at. The scene and a pilot view of about 2000 receivers decide the options that are empty.
 struct ViewSettings {
     std::optional<CameraPose> camera{};  ///< empty: the scene's
-    std::optional<int> width{};          ///< pixels; empty: the scene's
-    std::optional<int> height{};         ///< pixels; empty: the scene's
-    std::optional<float> range{};  ///< range, m; empty: the close range holds nine tenths of what is seen
-    /// R of the bounded geometry term, m. Empty takes range / 20, and from there Session::sample() lets a
-    /// pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.
+    std::optional<int> width{};          ///< pixels, 1 to 65536; empty: the scene's
+    std::optional<int> height{};         ///< pixels, 1 to 65536; empty: the scene's
+    /// Range, m, 1e-6 to 1e9; empty: the close range holds nine tenths of what is seen.
+    std::optional<float> range{};
+    /// R of the bounded geometry term, m, 0 to 1e9. Empty takes range / 20, and from there Session::sample()
+    /// lets a pilot choose a radius of least noise for its VPLs, which counts where rays compensate for it.
     std::optional<float> clamp_radius{};
     /// Whether that pilot runs, which also chooses the number of light samples. It takes about 0.2 s of
     /// processor time. Without it, an empty clamp radius is range / 20.
     bool ray_budget_pilot = true;
-    /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light. Empty takes
-    /// the scene's, which is 256 if its file sets no limit.
+    /// The length of the longest light path, as Mitsuba counts: 1 is emission, 2 is direct light; at most
+    /// 1024. Empty takes the scene's, which is 256 if its file sets no limit.
     std::optional<std::uint32_t> max_depth{};
 
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
@@ -80,15 +81,17 @@ struct ViewSettings {
 struct SamplingSettings {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
-    /// Target number of VPLs that a pixel asks about; light walks decide the exact one.
+    /// Target number of VPLs that a pixel asks about, at most 50 million; light walks decide the exact one.
     std::uint32_t vpl_count = 1000;
     /// Whether the set holds more VPLs than a pixel asks about, so that each bundle of receivers asks about
     /// those that could bring it most. The sampler `local` ignores it.
     bool cuts = false;
-    /// With cuts, the target number of VPLs in the set; empty: 64 times `vpl_count`, but at most 2^20.
-    /// Without cuts, or if it is less than `vpl_count`, or if that is 0, the set has `vpl_count`.
+    /// With cuts, the target number of VPLs in the set, 1 to 50 million; empty: 64 times `vpl_count`, but at
+    /// most 2^20. Without cuts, or if it is less than `vpl_count`, or if that is 0, the set has `vpl_count`.
     std::optional<std::uint32_t> set_count{};
-    std::optional<float> close_fraction{};  ///< share of the close range, [0, 1]; empty: chosen by a pilot
+    /// Share of the close range, 0 to 1; empty: chosen by a pilot. The policy `complete` ignores it with
+    /// cuts.
+    std::optional<float> close_fraction{};
     /// If it is not empty, the VPLs are those of this PLY file (docs/vpl-files.md), and the members above
     /// count for nothing. A picture of them has a single pass.
     std::filesystem::path file{};
@@ -119,11 +122,11 @@ struct PixelWindow {
 
 /// How to make pixels from VPLs and emitters.
 struct GatherSettings {
-    std::uint32_t samples_per_pixel = 16;
-    /// The number of strata into which the set of VPLs is divided. The samples of a pixel take turns: each
-    /// asks about the VPLs of one stratum, which then count for the whole set, so that `vpl_count` is what
-    /// the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes as many strata as
-    /// there are samples in a pixel, or in a square of `interleave`.
+    std::uint32_t samples_per_pixel = 16;  ///< 1 to 65536
+    /// The number of strata into which the set of VPLs is divided, 1 to 65536. The samples of a pixel take
+    /// turns: each asks about the VPLs of one stratum, which then count for the whole set, so that
+    /// `vpl_count` is what the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes
+    /// as many strata as there are samples in a pixel, or in a square of `interleave`.
     std::optional<std::uint32_t> strata{};
     /// Above 1, the pixels of each square of interleave × interleave pixels share the strata too, so that a
     /// pixel asks about that part of `vpl_count` only. The noise of neighbouring pixels is then independent,
@@ -133,12 +136,14 @@ struct GatherSettings {
     /// bit.
     std::optional<PixelWindow> window{};
     /// Samples towards area lights, the sun and the environment, and towards points, spots, projectors and
-    /// directional lights if there are more than sixteen of these; empty: 16 to 128, as a pilot chooses.
+    /// directional lights if there are more than sixteen of these, 1 to 1 million; empty: 16 to 128, as a
+    /// pilot chooses.
     std::optional<std::uint32_t> direct_samples_per_pixel{};
     /// Whether rays of receivers bring back what the clamp radius takes away and what surfaces reflect in
     /// other ways than Lambertian. Without them, the picture lacks that light.
     bool compensate = true;
-    /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections.
+    /// Rays of receivers, if `compensate` is set, and as many that look for lights in rough reflections; 1 to
+    /// 1 million.
     std::uint32_t rays_per_pixel = 64;
     /// Whether pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up to
     /// eight times the camera paths of others, for the light that these paths bring on their own. Pixels with
@@ -157,8 +162,9 @@ struct GatherSettings {
     /// met by chance stays with its receiver where it is more than this radiance (W/m²/sr): it makes a bright
     /// dot, not a bright tile. Empty: as a pilot chooses.
     std::optional<float> shared_limit{};
-    /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring. A bundle of
-    /// receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
+    /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring, 0 to 1000. A
+    /// bundle of receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
+    /// The sampler `local` ignores it.
     float roulette = 0.0f;
     /// A pixel's only sample goes through its middle, unless this is set: then it lies anywhere in the reach
     /// of the reconstruction filter, so that the mean of many such pictures has smooth edges. The passes of a
@@ -176,16 +182,17 @@ struct RenderSettings {
     SamplingSettings sampling{};
     GatherSettings gather{};
     std::uint32_t seed = 0;
-    /// The number of passes to average, each with random numbers and VPLs of its own. Empty means one pass,
-    /// or, if `seconds` or `error` is given, as many as it takes.
+    /// The number of passes to average, 1 to 1 million, each with random numbers and VPLs of its own. Empty
+    /// means one pass, or, if `seconds` or `error` is given, as many as it takes.
     std::optional<std::uint32_t> passes{};
-    /// The time limit in seconds, from the call that makes the picture. The last pass has fewer samples, so
-    /// that it ends in time; so has the first, if it would take far longer, but never fewer than two (or
-    /// `samples_per_pixel`).
+    /// The time limit in seconds, 0 to 1e9, from the call that makes the picture. The last pass has fewer
+    /// samples, so that it ends in time; so has the first, if it would take far longer, but never fewer than
+    /// two (or `samples_per_pixel`).
     std::optional<double> seconds{};
-    /// Makes passes until the relative error of the picture is at most this, or until there are `passes`, or
-    /// 1000. The relative error is the root of the mean of variance ÷ (b² + m²/100) over all pixels but the
-    /// thousandth with the largest quotients; b is the mean of the pixel's tile, m that of the picture.
+    /// Makes passes until the relative error of the picture is at most this, 1e-5 to 100, or until there are
+    /// `passes`, or 1000. The relative error is the root of the mean of variance ÷ (b² + m²/100) over all
+    /// pixels but the thousandth with the largest quotients; b is the mean of the pixel's tile, m that of the
+    /// picture.
     std::optional<double> error{};
     /// The samples per pixel of each pass, instead of `passes`: what Picture::pass_samples says of a picture
     /// makes the same picture again. Empty: all passes have `samples_per_pixel`, unless limits end them.
@@ -200,20 +207,21 @@ struct SessionOptions {
 
 /// How the frames of an animation are made.
 struct AnimationOptions {
-    double fps = 24.0;  ///< frames per second: frame N shows the time N / fps
+    double fps = 24.0;  ///< frames per second, 0.001 to 1e6: frame N shows the time N / fps
     /// The animations to play: their names, or their numbers counted from 1. Empty: all but those that move
     /// what an earlier one moves.
     std::vector<std::string> animations{};
     /// Where only the camera moves, VPLs are made for the views of every so many frames, and fade from one to
-    /// the next; 0: anew for each frame; empty: as many as fps.
+    /// the next, at most 999999; 0: anew for each frame; empty: as many as fps.
     std::optional<int> vpl_keys{};
 };
 
 /// How Session::irradiance() estimates the light at points.
 struct IrradianceSettings {
-    std::uint32_t direct_samples = 64;  ///< samples per point, towards area lights and the environment
-    /// How many short paths to trace from each point. They bring back the light that the view's clamp radius
-    /// takes away; 0 leaves that light out.
+    /// Samples per point towards area lights and the environment, 1 to 1 million.
+    std::uint32_t direct_samples = 64;
+    /// How many short paths to trace from each point, at most 65536. They bring back the light that the
+    /// view's clamp radius takes away; 0 leaves that light out.
     std::uint32_t paths = 16;
 };
 

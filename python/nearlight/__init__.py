@@ -18,7 +18,7 @@ Its parts:
     nearlight.Animation("walk.glb").render(24)     # a frame of an animated glTF file
 
 Settings are keyword arguments, or objects such as ViewSettings with the same names. What fails raises
-nearlight.Error; warnings go to the logger "nearlight". Ctrl-C and a progress function stop a picture.
+nearlight.Error; warnings go to the logger "nearlight". Ctrl-C and a progress function stop a picture between its steps.
 """
 
 from ._comparison import Comparison, ComparisonRow, compare

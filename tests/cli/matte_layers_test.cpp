@@ -23,8 +23,8 @@ class MatteLayers : public testing::Test {
     MatteLayers() { std::ofstream(scene_) << floor_and_wall(); }
     [[nodiscard]] ProgramResult render(const std::string& options,
                                        const std::filesystem::path& output) const {
-        return run_program("render --vpls 50 --spp 2 " + options + " " + quoted(scene_) + " -o " +
-                           quoted(output));
+        return run_program("render --vpls 50 --spp 4 --filter gaussian " + options + " " + quoted(scene_) +
+                           " -o " + quoted(output));
     }
     [[nodiscard]] static std::size_t attributes(const std::filesystem::path& file) {
         const Metadata metadata = read_metadata(file);

@@ -144,7 +144,8 @@ TEST_F(Render, CutsHaveMoreVplsThanAPixelAsks) {
     EXPECT_EQ(none["vpls"]["set"], 0);
     EXPECT_EQ(none["image_hash"], without_vpls("")["image_hash"]);
     for (const char* options : {"--vpl-set 3000 --cuts off", "--cuts on --roulette 1", "--cuts maybe",
-                                "--vpl-set 3000 --sampler local", "--vpl-set 0", "--vpl-set 99"}) {
+                                "--vpl-set 3000 --sampler local", "--vpl-set 0", "--vpl-set 99",
+                                "--cuts on --close-fraction 0.5", "--sampler local --roulette 1"}) {
         EXPECT_EQ(render(options, output_).exit_code, 2) << options;
     }
 }

@@ -45,6 +45,22 @@ TEST_F(VplOptions, VplsGoThroughAFile) {
     expect_refusal("--light-scale 2 --load-vpls " + file_, 3, "another scene");
 }
 
+TEST_F(VplOptions, AFileSaysItselfWhatAPixelAsks) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const ProgramResult first = render("--vpls 100 --cuts on --save-vpls " + file_);
+    ASSERT_EQ(first.exit_code, 0) << first.errors;
+    const nlohmann::json saved = nlohmann::json::parse(first.output);
+    const ProgramResult second = render("--load-vpls " + file_);
+    ASSERT_EQ(second.exit_code, 0) << second.errors;
+    const nlohmann::json loaded = nlohmann::json::parse(second.output);
+    EXPECT_EQ(loaded["image_hash"], saved["image_hash"]);
+    EXPECT_EQ(loaded["cuts"], true);
+    EXPECT_EQ(loaded["vpls"]["requested"], nullptr);
+    EXPECT_EQ(loaded["vpls"]["set"], saved["vpls"]["close"].get<int>() + saved["vpls"]["distant"].get<int>());
+    EXPECT_EQ(loaded["close_fraction"], saved["close_fraction"]);
+    EXPECT_EQ(read_metadata(folder_ / "a.exr").at("nearlight:vplsAsked"), Metadata::mapped_type{100});
+}
+
 TEST_F(VplOptions, WhatMakesNoSenseIsRefused) {
     NEARLIGHT_NEEDS_DEVICE();
     expect_refusal("--passes 2 --save-vpls " + file_, 2, "--save-vpls needs a picture of one pass");

@@ -150,9 +150,7 @@ TEST(SplatRows, APixelOfNoWeightIsBlack) {
 
 TEST(SplatRows, FiltersDecideTheReach) {
     const auto reach = [](FilterKind kind, uint samples = 16, bool splat = true) {
-        SceneCamera camera;
-        camera.filter = default_filter(kind);
-        return splat_reach(camera, {.samples_per_pixel = samples, .splat = splat});
+        return splat_reach(default_filter(kind), {.samples_per_pixel = samples, .splat = splat});
     };
     EXPECT_EQ(reach(FilterKind::box), 0u);
     EXPECT_EQ(reach(FilterKind::tent), 1u);

@@ -157,9 +157,11 @@ void leave_terminal() {
 
 /// Serves requests and never returns, because the worker must not go on with the work of the calling process.
 [[noreturn]] void run_worker(int socket, pid_t parent) {
-    // Ctrl-C goes to all processes of a terminal, but the parent decides when it no longer needs kernels.
+    // Ctrl-C, or its closing, goes to all processes of a terminal, but the parent decides when it no longer
+    // needs kernels.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
+    std::signal(SIGHUP, SIG_IGN);
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // on other systems a worker ends after its present program
 #endif
