@@ -140,8 +140,7 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
     return pick;
 }
 
-LightPick LightSampler::sample(Vec3 position, Vec3 normal, LightRandom random) const {
-    (void)normal;
+LightPick LightSampler::sample(Vec3 position, LightRandom random) const {
     const auto lights = std::span(table_.emitters).subspan(sampled_first_);
     if (lights.empty()) {
         return {};
@@ -207,8 +206,7 @@ double LightSampler::distant_density(Vec3 direction) const {
     return density;
 }
 
-double LightSampler::pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHit& hit) const {
-    (void)normal;
+double LightSampler::pdf(Vec3 position, Vec3 direction, const BvhHit& hit) const {
     if (hit.triangle == ~0u) {
         return distant_density(direction);
     }
@@ -243,7 +241,7 @@ Vec3 LightSampler::sampled_irradiance(const EmbreeScene& embree, Vec3 position, 
     for (const Emitter& emitter : exact_lights()) {
         sum += delta_light_irradiance(scene_, embree, emitter, position, normal);
     }
-    const LightPick pick = sample(position, normal, random);
+    const LightPick pick = sample(position, random);
     const float cosine = dot(normal, pick.direction);
     if (cosine <= 0.0f || is_zero(pick.radiance) || !is_visible(embree, position, pick)) {
         return sum;
@@ -259,7 +257,7 @@ Vec3 LightSampler::met_radiance(const BvhHit& hit, Vec3 position, Vec3 direction
     if (is_zero(radiance) || !(cosine_density > 0.0)) {
         return {0, 0, 0};
     }
-    const double density = pdf(position, normal, direction, hit);
+    const double density = pdf(position, direction, hit);
     return radiance * static_cast<float>(cosine_density / (cosine_density + density));
 }
 

@@ -47,12 +47,12 @@ class LightSampler {
     [[nodiscard]] std::span<const Emitter> exact_lights() const;
     /// What the delta light sends to a point. A pick of no use has a black radiance.
     [[nodiscard]] static LightPick exact_light(const Scene& scene, const Emitter& emitter, Vec3 position);
-    /// Light at a point (with the unit normal `normal`) from one of the lights that are not summed exactly. A
-    /// pick of no use, as where there are none, has a black radiance.
-    [[nodiscard]] LightPick sample(Vec3 position, Vec3 normal, LightRandom random) const;
+    /// Light at a point from one of the lights that are not summed exactly. A pick of no use, as where there
+    /// are none, has a black radiance.
+    [[nodiscard]] LightPick sample(Vec3 position, LightRandom random) const;
     /// Density with which sample() picks the unit direction in which a ray from the position met `hit`
     /// (triangle ~0u: nothing); 0 where it cannot pick it.
-    [[nodiscard]] double pdf(Vec3 position, Vec3 normal, Vec3 direction, const BvhHit& hit) const;
+    [[nodiscard]] double pdf(Vec3 position, Vec3 direction, const BvhHit& hit) const;
     /// Whether no opaque surface lies between the position and the light.
     [[nodiscard]] static bool is_visible(const EmbreeScene& embree, Vec3 position, const LightPick& pick);
 

@@ -27,11 +27,10 @@ struct PathIntegrator::Walk {
     double index = 1;  ///< refractive index relative to the camera's
     int vertices = 0;
     bool was_scattered = false;  ///< by other than mirrors and glass
-    // How the last vertex that did not let the path pass straight on drew the ray's direction: its place and
-    // normal, and the density with the chance of the part; without a density, as for the camera and delta
+    // How the last vertex that did not let the path pass straight on drew the ray's direction: its place, and
+    // the density with the chance of the part; without a density, as for the camera and delta
     // directions, light sampling cannot have found the same.
     Vec3 scattered_at;
-    Vec3 normal{0, 0, 1};
     double density = 0;
     double passed = 0;  ///< distance from that vertex to the last veil
     int veils = 0;      ///< passed since then
@@ -89,7 +88,7 @@ void PathIntegrator::add_emission(const Walk& walk, const BvhHit& hit, PathLight
     if (walk.density > 0 && walk.veils <= NEARLIGHT_MAX_VEILS) {
         BvhHit seen = hit;
         seen.t += static_cast<float>(walk.passed);
-        const double other = lights_.pdf(walk.scattered_at, walk.normal, walk.ray.direction, seen);
+        const double other = lights_.pdf(walk.scattered_at, walk.ray.direction, seen);
         weight = walk.density / (walk.density + other);
     }
     Vec3d& layer = walk.stage == Walk::Stage::beyond ? light.indirect : light.direct;
@@ -114,11 +113,12 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     Vec3d sum;
     if (pick.is_delta) {
         sum = (base_only ? value.diffuse : value.sum()) / pick.density;
-    } else if (base_only && shadow.veils > 0) {
-        sum = value.diffuse / pick.density;  // veils end the paths of a clamped picture
     } else {
         const double diffuse_chance = base_only ? 1 : bsdf.diffuse_chance();
-        sum = value.diffuse / (pick.density + diffuse_chance * bsdf.diffuse_pdf(direction));
+        // A veil is no surface that reflects by D, so it ends a ray by which a clamped picture would leave
+        // its receiver, and sampled lights alone bring what comes through.
+        const bool ray_ends = clamp_radius_ > 0.0f && walk.stage == Walk::Stage::chain && shadow.veils > 0;
+        sum = value.diffuse / (pick.density + (ray_ends ? 0 : diffuse_chance * bsdf.diffuse_pdf(direction)));
         if (!base_only) {
             sum += value.specular / (pick.density + bsdf.specular_chance() * bsdf.specular_pdf(direction));
         }
@@ -129,18 +129,16 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
 void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                        const LightRandom& random, PathLight& light) const {
     const Vec3 position = stand_off(surface.position, surface.geometric_normal, lights_.extent());
-    const Vec3 normal = as_float(bsdf.normal());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
         layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
     }
-    layer += scattered(walk, surface, bsdf, lights_.sample(position, normal, random));
+    layer += scattered(walk, surface, bsdf, lights_.sample(position, random));
 }
 
 /// Notes at the start of the next ray how its direction was drawn.
-void PathIntegrator::leave(Walk& walk, const SurfaceDraw& draw, Vec3 normal) {
+void PathIntegrator::leave(Walk& walk, const SurfaceDraw& draw) {
     walk.scattered_at = walk.ray.origin;
-    walk.normal = normal;
     walk.density = draw.is_delta ? 0 : draw.pdf;
     walk.was_scattered = walk.was_scattered || !draw.is_delta;
     walk.passed = 0;
@@ -167,7 +165,7 @@ bool PathIntegrator::scatter(Walk& walk, double distance, const Surface& surface
         walk.passed += distance;
         ++walk.veils;
     } else {
-        leave(walk, draw, as_float(bsdf.normal()));
+        leave(walk, draw);
     }
     double survival = 1;
     if (walk.vertices >= kSureVertices) {

@@ -47,7 +47,7 @@ class PathIntegrator {
                            const LightRandom& random, PathLight& light) const;
     [[nodiscard]] Vec3d scattered(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                   const LightPick& pick) const;
-    static void leave(Walk& walk, const SurfaceDraw& draw, Vec3 normal);
+    static void leave(Walk& walk, const SurfaceDraw& draw);
     [[nodiscard]] bool scatter(Walk& walk, double distance, const Surface& surface, const SurfaceBsdf& bsdf,
                                const VertexRandom& random) const;
     void note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,

@@ -112,6 +112,12 @@ inline std::vector<BsdfCase> glass_cases() {
     add("rough dielectric GGX", [&](Scene&) { return rough(dielectric_material(1.5), 0.4f, 0.4f); });
     add("rough dielectric Beckmann",
         [&](Scene&) { return rough(dielectric_material(1.33), 0.3f, 0.3f, true); });
+    // Where the boundary as a whole would reflect all, leaning facets let light through.
+    add("rough dielectric without mirror images", [&](Scene&) {
+        Material material = rough(dielectric_material(1.5), 0.5f, 0.5f);
+        material.specular = parameter_of(0.0f);
+        return material;
+    });
     add("anisotropic dielectric GGX", [&](Scene&) { return rough(dielectric_material(1.5), 0.2f, 0.5f); });
     add("null", [&](Scene&) { return plain_material(NEARLIGHT_BSDF_NULL); });
     return cases;

@@ -157,6 +157,10 @@ TEST(Bsdf, AlbedoIsTheIntegralAndConservesEnergy) {
             }
             const Vec3d diffuse = sphere_quadrature(200, [&](Vec3d wi) { return bsdf.eval(wi).diffuse; });
             expect_near(albedo.diffuse, diffuse, 1e-3, what);
+            if (!bsdf.has_specular()) {
+                const Vec3d none = sphere_quadrature(40, [&](Vec3d wi) { return bsdf.eval(wi).specular; });
+                EXPECT_TRUE(is_zero(none)) << what;
+            }
             Pcg32 random(6);
             if (bsdf.has_specular() && !bsdf.sample_specular(next_random(random)).is_delta) {
                 const Vec3d specular =

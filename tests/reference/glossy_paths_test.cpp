@@ -155,6 +155,28 @@ TEST(GlossyPaths, LampsBehindAMaskAreFoundThroughItsHoles) {
     }
 }
 
+/// Paths of a clamped picture end at veils behind their receiver, but no light may end with them.
+TEST(GlossyPaths, AClampLeavesLightBehindVeilsAsItIs) {
+    Scene scene;
+    const uint grey = add_material(scene, lambertian({0.5f, 0.5f, 0.5f}));
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, grey);
+    add_quad(scene, {1, 0, -2}, {0, 0, 4}, {0, 2, 0}, grey);  // a wall that faces −x
+    const uint hole = add_material(scene, mask_material(parameter_of(0.2f), grey));
+    add_quad(scene, {-3, 2.5f, -3}, {6, 0, 0}, {0, 0, 6}, hole);
+    scene.environment = {.width = 2, .height = 1, .radiance = {{1, 1, 1}, {1, 1, 1}}, .to_world = {}};
+    set_camera(scene, {-1.5, 0.8, 0}, {0.5, 0, 0}, 0.05);
+    PathTracerSettings settings{.width = 4, .height = 4, .spp = 4096, .max_depth = 4};
+    const Image whole = trace_paths(scene, settings);
+    settings.clamp_radius = 0.001f;
+    const Image clamped = trace_paths(scene, settings);
+    for (const std::string layer : {"direct", "indirect"}) {
+        EXPECT_GT(channel_mean(whole, layer + ".R"), 0.01) << layer;
+        EXPECT_NEAR(channel_mean(clamped, layer + ".R"), channel_mean(whole, layer + ".R"),
+                    4.5 * std::hypot(standard_error(whole), standard_error(clamped)))
+            << layer;
+    }
+}
+
 /// A matt floor beside a wall of the material under a lamp; the view is of the floor.
 Scene floor_and_wall(const std::function<Material(Scene&)>& wall) {
     Scene scene;

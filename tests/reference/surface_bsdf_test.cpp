@@ -164,6 +164,21 @@ TEST(SurfaceBsdf, ANormalMapTurnsTheNormal) {
     expect_color(mapped.seen_from(normalize(Vec3d{-0.9, 0, 0.2})).normal(), {-0.6, 0, 0.8}, 1e-6);
 }
 
+/// As in Mitsuba, the second axis of a map is at a right angle to u, whichever way v goes.
+TEST(SurfaceBsdf, ANormalMapOnMirroredTextureCoordinatesIsRightHanded) {
+    BsdfCase mapped = normal_mapped({0, 0.6f, 0.8f}, false);
+    expect_color(mapped.seen_from(towards(0.9)).normal(), {0, 0.6, 0.8}, 1e-6);
+    for (Vertex& vertex : mapped.scene.vertices) {
+        vertex.u = 1 - vertex.u;
+    }
+    expect_color(mapped.seen_from(towards(0.9)).normal(), {0, -0.6, 0.8}, 1e-6);
+    for (Vertex& vertex : mapped.scene.vertices) {
+        vertex.u = 1 - vertex.u;
+        vertex.v = 1 - vertex.v;
+    }
+    expect_color(mapped.seen_from(towards(0.9)).normal(), {0, 0.6, 0.8}, 1e-6);
+}
+
 /// As in Mitsuba, what passes a hole of a mask under a map is shadowed by the map like all else.
 TEST(SurfaceBsdf, AMapShadowsTheHolesOfAMask) {
     constexpr Vec3 kTilted{0.6f, 0, 0.8f};
@@ -202,6 +217,48 @@ TEST(SurfaceBsdf, ABumpMapTiltsByItsSlope) {
     expect_color(along_v.seen_from(towards(0.95)).normal(), normalize(Vec3d{0, 0.8, 1}), 1e-4);
 }
 
+TEST(SurfaceBsdf, ABumpMapWithoutInterpolationIsFlat) {
+    const BsdfCase bumped = wrapped([](Scene& scene) {
+        const uint child = add_material(scene, lambertian(kRed));
+        const int texture = add_bitmap(scene, 2, 1, {Vec3{0, 0, 0}, Vec3{1, 1, 1}}, NEARLIGHT_FILTER_NEAREST);
+        return add_material(scene, bump_map_material(textured(texture, 2.0f), child));
+    });
+    expect_color(bumped.seen_from(towards(0.95)).normal(), {0, 0, 1});
+}
+
+/// As in Mitsuba, a bump map turns the axes of roughness with the derivative of the position by u.
+TEST(SurfaceBsdf, AnisotropyUnderABumpMapFollowsTheTextureCoordinates) {
+    BsdfCase test = wrapped([](Scene& scene) {
+        const uint child = add_material(scene, rough(gold(), 0.6f, 0.1f));
+        const int texture = add_bitmap(scene, 2, 1, {Vec3{0, 0, 0}, Vec3{0, 0, 0}});
+        return add_material(scene, bump_map_material(textured(texture), child));
+    });
+    const auto spread = [&](Vec3d wi) { return test.seen_from({0, 0, 1}).eval(wi).specular.x; };
+    EXPECT_GT(spread(towards(0.8, 0)), 5 * spread(towards(0.8, std::numbers::pi / 2)));
+    // The derivative by u is then (0, 1, 0) in the world, and is taken for an axis of the surface's own
+    // frame, whose first axis is that derivative already.
+    for (Vertex& vertex : test.scene.vertices) {
+        std::swap(vertex.u, vertex.v);
+    }
+    EXPECT_GT(spread(towards(0.8, 0)), 5 * spread(towards(0.8, std::numbers::pi / 2)));
+}
+
+TEST(SurfaceBsdf, ARoughnessForEachAxisComesFromATextureOfTwoNumbers) {
+    const BsdfCase two = wrapped([](Scene& scene) {
+        Material material = gold();
+        const int texture = add_bitmap(scene, 1, 1, {Vec3{0.6f, 0.2f, 1.0f}});
+        scene.textures[static_cast<std::size_t>(texture)].parameters.flags |= NEARLIGHT_TEXTURE_TWO_NUMBERS;
+        material.roughness = textured(texture);
+        return add_material(scene, material);
+    });
+    const BsdfCase constant =
+        wrapped([](Scene& scene) { return add_material(scene, rough(gold(), 0.6f, 0.2f)); });
+    for (const double azimuth : {0.0, 1.0, std::numbers::pi / 2}) {
+        expect_color(two.seen_from({0, 0, 1}).eval(towards(0.8, azimuth)).specular,
+                     constant.seen_from({0, 0, 1}).eval(towards(0.8, azimuth)).specular, 1e-5);
+    }
+}
+
 TEST(SurfaceBsdf, AnisotropyFollowsTheTextureCoordinates) {
     BsdfCase test = bsdf_case("", [](Scene&) { return rough(gold(), 0.6f, 0.1f); });
     const auto spread = [&](Vec3d wi) { return test.seen_from({0, 0, 1}).eval(wi).specular.x; };
@@ -220,6 +277,17 @@ TEST(SurfaceBsdf, ShadingNormalsSayWhereTheFrontIs) {
     expect_color(test.seen_from({0, 0, 1}).normal(), normalize(Vec3d{0.5, 0, 1}), 1e-6);
     EXPECT_FALSE(test.seen_from(normalize(Vec3d{-1, 0, 0.2})).has_diffuse());
     EXPECT_TRUE(test.seen_from(normalize(Vec3d{1, 0, -0.2})).has_diffuse());
+}
+
+TEST(SurfaceBsdf, NestingReachesAsDeepAsTheLoaderAllows) {
+    const BsdfCase nested = wrapped([](Scene& scene) {
+        uint material = add_material(scene, lambertian(kRed));
+        for (int depth = 0; depth < NEARLIGHT_MAX_BSDF_NESTING; ++depth) {
+            material = add_material(scene, two_sided_material(material, material));
+        }
+        return material;
+    });
+    EXPECT_TRUE(nested.seen_from(towards(0.5)).has_diffuse());
 }
 
 TEST(SurfaceBsdf, NestingWithoutEndIsBlack) {

@@ -119,6 +119,13 @@ inline std::map<std::string, Material> make_materials() {
     materials["ward anisotropic"] = make_lobe(NEARLIGHT_BSDF_WARD, 0.1f, 0.4f);
     materials["principled"] = make_principled(0);
     materials["principled_thin"] = make_principled(NEARLIGHT_MATERIAL_THIN);
+    materials["principled bubble"] = make_principled(0);
+    materials["principled bubble"].eta = {0.8f, 0.8f, 0.8f};
+    materials["principled of index 1"] = make_principled(0);
+    materials["principled of index 1"].eta = {1, 1, 1};
+    materials["principled of index 1"].spec_trans = constant(0.0f);
+    materials["glass without mirror images"] = make_glass(0.5f, 0.5f, 0);
+    materials["glass without mirror images"].specular = constant(0.0f);
     for (const float alpha : {0.1f, 0.3f, 1.0f}) {
         for (const uint flags : {0u, kBeckmann}) {
             const std::string name = (flags ? "beckmann " : "ggx ") + std::to_string(alpha);

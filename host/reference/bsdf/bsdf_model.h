@@ -22,8 +22,8 @@ struct BsdfParameters {
     Vec3d specular{1, 1, 1};          ///< tint of what S reflects
     Vec3d transmission{1, 1, 1};      ///< tint of what S lets through; principled: x is diffuse transmission
     double alpha_x = 0, alpha_y = 0;  ///< principled: alpha_x is the roughness
-    /// Conductor: real index; otherwise x is the index beyond ÷ on the viewer's side, but for clear glass
-    /// that of the body ÷ outside.
+    /// Conductor: real index; otherwise x is the index beyond ÷ on the viewer's side, but for panes, thin
+    /// sheets and clear glass that of the material ÷ outside.
     Vec3d eta{1, 1, 1};
     Vec3d k;  ///< conductor: imaginary index
     double metallic = 0, anisotropic = 0, spec_trans = 0, spec_tint = 0, sheen = 0, sheen_tint = 0,

@@ -62,8 +62,12 @@ BsdfDraw sample_dielectric(const BsdfParameters& p, Vec3d wo, BsdfRandom random)
                    : BsdfDraw{};
 }
 
+// The facets of a rough boundary lean, so that some reflect and some let through wherever the boundary as a
+// whole would do one alone.
 Vec3d estimate_dielectric(const BsdfParameters& p, Vec3d wo) {
-    return mix(p.transmission, p.specular, fresnel_of_dielectric(wo.z, p.eta.x));
+    constexpr double kLeast = 0.05;
+    const double fresnel = fresnel_of_dielectric(wo.z, p.eta.x);
+    return mix(p.transmission, p.specular, is_smooth(p) ? fresnel : std::clamp(fresnel, kLeast, 1 - kLeast));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/scene/number_pair.h"
 #include "host/scene/texture.h"
 
 namespace nearlight::core {
@@ -21,13 +22,14 @@ struct Lookup {
         const Vec3 value = value_at(scene, surface, parameter);
         return as_double(max(value, Vec3{0, 0, 0}));
     }
-    /// Two numbers in [0, 1], in x and y. A texture scales them by the luminance of its colour, as in
-    /// Mitsuba.
+    /// Two numbers in [0, 1], in x and y. A texture scales both by the luminance of its colour, as in
+    /// Mitsuba, or, if it was made of one texture for each, by its red and its green.
     [[nodiscard]] Vec3d numbers(const Parameter& parameter) const {
-        const Parameter unscaled{{1, 1, 1}, parameter.texture};
-        const double texel = luminance_of(color(unscaled));
-        const auto number_of = [&](float scale) { return std::clamp(scale * texel, 0.0, 1.0); };
-        return {number_of(parameter.value.x), number_of(parameter.value.y), 0};
+        const Vec3d texel = color({{1, 1, 1}, parameter.texture});
+        const bool has_two = holds_two_numbers(scene, parameter);
+        const double grey = luminance_of(texel);
+        return {std::clamp(parameter.value.x * (has_two ? texel.x : grey), 0.0, 1.0),
+                std::clamp(parameter.value.y * (has_two ? texel.y : grey), 0.0, 1.0), 0};
     }
     /// A number in [0, 1].
     [[nodiscard]] double number(const Parameter& parameter) const { return numbers(parameter).x; }
@@ -77,8 +79,9 @@ Vec3d height_gradient(const Scene& scene, const Surface& surface, const Paramete
         return {};
     }
     const SceneTexture& texture = scene.textures[static_cast<std::size_t>(height.texture)];
-    if (texture.image < 0) {
-        return {};  // Mitsuba's checkerboards have no gradient
+    // Mitsuba's checkerboards have no gradient, and neither have its bitmaps without interpolation.
+    if (texture.image < 0 || texture.parameters.filter == NEARLIGHT_FILTER_NEAREST) {
+        return {};
     }
     const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
     const Texture& p = texture.parameters;

@@ -9,7 +9,8 @@ namespace {
 // A part of a BSDF is drawn from with this probability at least, however dark it is estimated.
 constexpr double kMinPartChance = 0.1;
 
-/// The frame of the surface on its front; its x axis follows the texture coordinate u where there is one.
+/// The right-handed frame of the surface on its front; its x axis follows the texture coordinate u where
+/// there is one, and its y axis goes against v where (u, v) is mirrored, as in Mitsuba.
 BsdfFrame front_frame(const Surface& surface) {
     const Vec3d n = normalize(as_double(surface.front_normal));
     const Vec3d along_u = as_double(surface.along_u);
@@ -19,11 +20,7 @@ BsdfFrame front_frame(const Surface& surface) {
         s = s - n * dot(n, s);
     }
     s = normalize(s);
-    Vec3d t = cross(n, s);
-    if (dot(t, as_double(surface.along_v)) < 0) {
-        t = -t;
-    }
-    return {s, t, n};
+    return {s, cross(n, s), n};
 }
 
 /// The squared tangent of the angle to the axis whose cosine is given.
@@ -49,7 +46,7 @@ SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, d
     : frame_(front_frame(surface)), scales_radiance_(transport != Transport::flux && !scene.clear_glass) {
     const Material* material = surface.material;
     const BsdfFrame flat = frame_;
-    for (int step = 0; step < NEARLIGHT_MAX_BSDF_NESTING; ++step) {
+    for (int step = 0; step <= NEARLIGHT_MAX_BSDF_NESTING; ++step) {
         const Material& m = *material;
         uint child = m.child[0];
         if (m.model == NEARLIGHT_BSDF_MASK || m.model == NEARLIGHT_BSDF_BLEND) {
@@ -67,9 +64,9 @@ SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, d
                 child = m.child[1];
             }
         } else if (m.model == NEARLIGHT_BSDF_NORMAL_MAP) {
-            turn_normal(mapped_normal(scene, surface, m), wo);
+            turn_normal(mapped_normal(scene, surface, m), {1, 0, 0}, wo);
         } else if (m.model == NEARLIGHT_BSDF_BUMP_MAP) {
-            turn_normal(bumped_normal(scene, surface, m, flat), wo);
+            turn_normal(bumped_normal(scene, surface, m, flat), as_double(surface.along_u), wo);
         } else {
             parameters_ = bsdf_parameters(scene, surface, m, dot(wo, frame_.n) > 0);
             if (scene.clear_glass && transport != Transport::camera && m.model == NEARLIGHT_BSDF_DIELECTRIC &&
@@ -88,14 +85,20 @@ SurfaceBsdf::SurfaceBsdf(const Scene& scene, const Surface& surface, Vec3d wo, d
     choose_parts();
 }
 
-// As in Mitsuba, a normal that faces away from the viewer is turned half way round the normal of the surface.
-void SurfaceBsdf::turn_normal(Vec3d local, Vec3d wo) {
+// As in Mitsuba, a normal that faces away from the viewer is turned half way round the normal of the surface,
+// and the new x axis is as near to `along` as can be. Mitsuba gives bump maps the derivative by u in the
+// world for it, though the rest is given in the frame of the surface.
+void SurfaceBsdf::turn_normal(Vec3d local, Vec3d along, Vec3d wo) {
     const Vec3d view = frame_.to_local(wo);
     if (view.z * dot(view, local) <= 0) {
         local = {-local.x, -local.y, local.z};
     }
-    Vec3d s = Vec3d{1, 0, 0} - local * local.x;
-    s = length(s) > 1e-9 ? normalize(s) : Vec3d{0, 1, 0};
+    Vec3d s = along - local * dot(local, along);
+    if (length(s) <= 1e-9 * length(along) || is_zero(along)) {
+        s = as_double(orthonormal_basis(as_float(local))[0]);
+        s = s - local * dot(local, s);
+    }
+    s = normalize(s);
     const Vec3d t = cross(local, s);
     turns_[turn_count_++] = {frame_.n, frame_.to_world(local), std::min(1.0, 0.125 * tangent2(local.z))};
     frame_ = {frame_.to_world(s), frame_.to_world(t), frame_.to_world(local)};

@@ -76,7 +76,7 @@ class SurfaceBsdf {
         Vec3d from, to;
         double alpha2;
     };
-    void turn_normal(Vec3d local, Vec3d wo);
+    void turn_normal(Vec3d local, Vec3d along, Vec3d wo);
     void choose_parts();
     /// How much of the light from wi reaches a surface whose normal was turned by maps, and 0 where the
     /// turned and the original surface disagree about wi's side.
@@ -89,7 +89,7 @@ class SurfaceBsdf {
     bool scales_radiance_;
     const SpecularModel* specular_ = nullptr;
     double diffuse_chance_ = 0, specular_chance_ = 0;
-    std::array<Turn, NEARLIGHT_MAX_BSDF_NESTING> turns_{};
+    std::array<Turn, NEARLIGHT_MAX_BSDF_NESTING + 1> turns_{};
     std::size_t turn_count_ = 0;
 };
 

@@ -31,8 +31,10 @@ typedef struct Bsdf {
     float3 specular;      // tint of what S reflects
     float3 transmission;  // tint of what S lets through
     float2 alpha;         // microfacets' α along x and y of the frame; principled: x is the roughness
-    float3 eta;  // conductor: real index; otherwise x is the index beyond the surface ÷ the viewer's
-    float3 k;    // conductor: imaginary index
+    // Conductor: real index; otherwise x is the index beyond the surface ÷ the viewer's, but for panes, thin
+    // sheets and clear glass that of the material ÷ outside.
+    float3 eta;
+    float3 k;  // conductor: imaginary index
     float metallic, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness, clearcoat,
         clearcoat_gloss;  // principled
     uint front;           // 1: the viewer is on the front (outer) side

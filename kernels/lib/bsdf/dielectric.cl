@@ -96,11 +96,18 @@ static inline BsdfSample dielectric_sample(const Bsdf* bsdf, float3 wo, float u,
     return sample;
 }
 
+/// The facets of a rough boundary lean, so that some reflect and some let through wherever the boundary as a
+/// whole would do one alone; neither may count for nothing.
+#define LEAST_FACET_SHARE 0.05f
+
 /// Exact for a smooth boundary.
 static inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
-    const float reflectance = fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
+    float reflectance = fresnel_dielectric(cosine, bsdf->eta.x, &cos_far);
+    if (!is_smooth(bsdf)) {
+        reflectance = clamp(reflectance, LEAST_FACET_SHARE, 1.0f - LEAST_FACET_SHARE);
+    }
     // Light out of the denser side meets facets a second time more often.
     const float escape = mix(1.0f, facet_escape(bsdf), bsdf->eta.x < 1.0f ? 1.0f : 0.5f);
     return escape * mix(bsdf->transmission, bsdf->specular, reflectance);

@@ -84,15 +84,25 @@ static inline float facet_reflection_share(const Bsdf* bsdf, float reflectance) 
     return bsdf->front ? 1.0f - body * (1.0f - reflectance) : reflectance;
 }
 
-/// Fresnel's factor of the facets, whose reflectance as a dielectric is given.
+/// Schlick's weight for a facet of this cosine: of the angle in the thinner of the media on both sides.
+static inline float schlick_weight_at(const Bsdf* bsdf, float cosine) {
+    const float eta = bsdf->eta.x;
+    const float cos_schlick =
+        eta > 1.0f ? cosine : sqrt(fmax(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
+    return schlick_weight(cos_schlick);
+}
+
+/// Fresnel's factor of the facets, whose reflectance as a dielectric is given. As in Mitsuba, a body of index
+/// 1 has no facets at all, not even those of a metal.
 static inline float3 principled_fresnel(const Bsdf* bsdf, float reflectance, float cosine) {
     if (!bsdf->front && !is_thin(bsdf)) {
         return (float3)((1.0f - bsdf->metallic) * bsdf->spec_trans * reflectance);
     }
     const float eta = bsdf->eta.x;
-    const float cos_schlick =
-        eta > 1.0f ? cosine : sqrt(fmax(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
-    const float grazing = schlick_weight(cos_schlick);
+    if (eta == 1.0f && !is_thin(bsdf)) {
+        return (float3)(0.0f);
+    }
+    const float grazing = schlick_weight_at(bsdf, cosine);
     const float normal = (eta - 1.0f) * (eta - 1.0f) / ((eta + 1.0f) * (eta + 1.0f));
     const float3 tinted = mix(normal * tint_of(bsdf->base), (float3)(1.0f), grazing);
     const float3 dielectric = mix((float3)(reflectance), tinted, bsdf->spec_tint);
@@ -116,7 +126,7 @@ static inline float clearcoat_eval(const Bsdf* bsdf, float3 wo, float3 wi, float
     Microfacets masking;
     masking.alpha = (float2)(0.25f);
     masking.beckmann = 0;
-    return 0.25f * bsdf->clearcoat * mix(schlick_weight(cosine), 1.0f, 0.04f) * density *
+    return 0.25f * bsdf->clearcoat * mix(schlick_weight_at(bsdf, cosine), 1.0f, 0.04f) * density *
            facet_masking(&masking, wo, m) * facet_masking(&masking, wi, m) * wi.z;
 }
 
