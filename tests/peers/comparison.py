@@ -46,8 +46,8 @@ class Comparison:
             os.makedirs(folder, exist_ok=True)
         program, options = os.path.abspath(arguments.nearlight), shlex.split(arguments.options)
         self._mitsuba = Mitsuba(worker, version, os.path.join(out, 'mitsuba'), redo=arguments.redo)
-        self._nearlight = Nearlight(program, worker, pictures, options)
-        self._key = repr((version, hash_of_judges(program), options, self._factor))
+        self._nearlight = Nearlight(program, worker, pictures, options, arguments.reference)
+        self._key = repr((version, hash_of_judges(program), options, self._factor, arguments.reference))
 
     def result(self, row):
         """The row's result. The same program renders the same pictures, so a result that was kept holds."""

@@ -246,12 +246,18 @@ class Verdicts(unittest.TestCase):
         np.save(request['into'], np.ones((len(request.get('seeds') or request['read']), 2, 2, 3)))
 
     def result(self, row, **options):
-        given = dict(clamp_radius_factor=1, resume=False, redo=False, out=self.folder.name, nearlight=self.program, options='')
+        given = dict(clamp_radius_factor=1, resume=False, redo=False, out=self.folder.name, nearlight=self.program, options='', reference=0)
         return Comparison(types.SimpleNamespace(**{**given, **options}), '3.0', self).result(row)
 
     def renderings(self):
         with open(self.log) as file:
             return file.read().splitlines()
+
+    def test_the_reference_takes_samples_and_no_options_of_rows(self):
+        self.result(Row('a/b', '<scene/>', options=('--vpls', '9')), reference=64)
+        self.assertTrue(self.renderings()[0].startswith('reference '))
+        self.assertIn('--spp 64', self.renderings()[0])
+        self.assertNotIn('--vpls', self.renderings()[0])
 
     def test_a_row_that_agrees_passes_after_four_seeds(self):
         result = self.result(Row('a/b', '<scene/>'))

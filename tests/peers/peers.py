@@ -45,6 +45,8 @@ def parsed_arguments():
     parser.add_argument('--list', action='store_true', help='list the rows and end')
     parser.add_argument('--json', action='store_true', help='print results as one JSON object')
     parser.add_argument('--clamp-radius-factor', type=float, default=1, help="times the clamp radius of nearlight's own choice")
+    parser.add_argument('--reference', metavar='SPP', type=int, default=0,
+                        help="compare `nearlight reference`, the oracle of nearlight's own tests, with so many samples a pixel")
     parser.add_argument('--rooms', metavar='FOLDER', action='append', default=[],
                         help='also compare all XML scenes under this folder, as rows rooms/...')
     parser.add_argument('--chance', metavar='SEEDS', type=seeds_of, default=(),

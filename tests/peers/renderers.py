@@ -81,11 +81,13 @@ class Mitsuba:
 
 @dataclass
 class Nearlight:
-    """The program at its defaults, with these options besides."""
+    """The program at its defaults, with these options besides. With `spp`, its reference path tracer makes the pictures,
+    with so many samples a pixel."""
     program: str
     worker: object
     folder: str
     options: list = field(default_factory=list)
+    spp: int = 0
     seconds: float = 300
 
     def pictures(self, path, row, seeds, options=()):
@@ -105,7 +107,8 @@ class Nearlight:
         return pictures, warnings, report
 
     def _render(self, path, out, seed, size, options):
-        command = [self.program, 'render', path, '-o', out, '--json', '--seed', str(seed), *self.options, *options]
+        kind, options = ('reference', ('--spp', str(self.spp))) if self.spp else ('render', options)    # rows have options of `render`
+        command = [self.program, kind, path, '-o', out, '--json', '--seed', str(seed), *self.options, *options]
         if size:
             command += ['--size', f'{size[0]}x{size[1]}']
         try:
