@@ -100,7 +100,7 @@ class AnyClampRadius : public test::DeviceTest {
         for (const std::string layer : {"direct", "indirect"}) {
             const test::Verdict verdict = test::judge_convergence(renders, truth, layer);
             EXPECT_TRUE(verdict.agrees) << layer << ": " << verdict.reason;
-            EXPECT_LT(verdict.relative_error, 0.015)
+            EXPECT_LT(verdict.relative_error, 0.02)
                 << layer << ": too noisy to tell anything, bias " << verdict.bias;
         }
     }
