@@ -136,8 +136,8 @@ struct PlacedMesh {
     std::vector<Vec3> normals;  ///< empty for flat facets
 };
 
-/// The mesh with vertices of its own for each triangle, which have the colour of the face. Normals remain
-/// those of the mesh whose triangles share vertices.
+/// The mesh with vertices of its own for each triangle, which have the colour of the face if there is one.
+/// Normals remain those of the mesh whose triangles share vertices.
 PlacedMesh split_faces(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Vec3> normals) {
     const auto corners = [&](const auto& values) { return at_corners(std::span(values), mesh.triangles); };
     PlacedMesh split{.mesh = {}, .positions = corners(positions), .normals = corners(normals)};
@@ -146,12 +146,15 @@ PlacedMesh split_faces(const Mesh& mesh, std::span<const Vec3> positions, std::s
     split.mesh.normals = corners(mesh.normals);
     split.mesh.uvs = corners(mesh.uvs);
     split.mesh.second_uvs = corners(mesh.second_uvs);
+    split.mesh.colors = mesh.face_colors.empty() ? corners(mesh.colors) : std::vector<Vec3>();
     split.mesh.object_names = mesh.object_names;
     split.mesh.objects = mesh.objects;
     split.mesh.groups = mesh.groups;
     for (uint i = 0; i < mesh.triangles.size(); ++i) {
         split.mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-        split.mesh.colors.insert(split.mesh.colors.end(), 3, mesh.face_colors[i]);
+        if (!mesh.face_colors.empty()) {
+            split.mesh.colors.insert(split.mesh.colors.end(), 3, mesh.face_colors[i]);
+        }
     }
     return split;
 }
@@ -279,11 +282,18 @@ void append_mesh(Scene& scene, const Mesh& mesh, const MeshPlacement& placement,
         positions.push_back(transform_point(placement.to_world, p));
     }
     const std::vector<Vec3> normals = world_normals(mesh, placement, positions);
-    if (mesh.face_colors.empty()) {
+    if (mesh.face_colors.empty() && !placement.corner_uvs) {
         append_placed(scene, mesh, positions, normals, placement, notes);
         return;
     }
-    const PlacedMesh split = split_faces(mesh, positions, normals);
+    PlacedMesh split = split_faces(mesh, positions, normals);
+    if (placement.corner_uvs) {
+        // Mitsuba's v goes down the rows of a texture.
+        constexpr std::array<std::array<float, 2>, 3> kCorners{{{0, 1}, {1, 1}, {0, 0}}};
+        for (std::size_t i = 0; i < split.positions.size(); ++i) {
+            split.mesh.uvs.push_back(kCorners.at(i % 3));
+        }
+    }
     append_placed(scene, split.mesh, split.positions, split.normals, placement, notes);
 }
 

@@ -39,6 +39,9 @@ struct MeshPlacement {
     std::span<const uint> materials;  ///< at least one, indices into Scene::materials
     bool face_normals = false;        ///< flat facets, whatever normals the mesh has
     bool flip_normals = false;        ///< turn the mesh inside out
+    /// Give each triangle the texture coordinates that Mitsuba takes for a mesh without any: the barycentric
+    /// ones of its second and third corner.
+    bool corner_uvs = false;
 };
 
 /// Adds the mesh to the scene. A mesh without normals gets smooth ones, weighted by angle. As in Mitsuba 3,

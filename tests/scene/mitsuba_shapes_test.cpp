@@ -157,7 +157,7 @@ TEST(MitsubaShape, MirroredMeshesKeepMitsubasFront) {
     }
 }
 
-TEST(MitsubaShape, MirroredSpheresAndCylindersTurnInsideOut) {
+TEST(MitsubaShape, MirroredSpheresTurnInsideOutAndCylindersDoNot) {
     const SceneFiles files;
     const auto outward = [&](const char* type, const std::string& body) {
         const Scene scene = files.load_xml(shape(type, body));
@@ -169,9 +169,10 @@ TEST(MitsubaShape, MirroredSpheresAndCylindersTurnInsideOut) {
     const std::string flip = "<boolean name='flip_normals' value='true'/>";
     for (const char* type : {"sphere", "cylinder"}) {
         EXPECT_TRUE(outward(type, "")) << type;
-        EXPECT_FALSE(outward(type, to_world("<scale value='1,1,-1'/>"))) << type;
+        const bool turns = std::string(type) == "sphere";
+        EXPECT_EQ(outward(type, to_world("<scale value='1,1,-1'/>")), !turns) << type;
         EXPECT_TRUE(outward(type, to_world("<scale value='-1,-1,1'/>"))) << type;
-        EXPECT_TRUE(outward(type, flip + to_world("<scale value='-1'/>"))) << type;
+        EXPECT_EQ(outward(type, flip + to_world("<scale value='-1'/>")), turns) << type;
     }
 }
 
@@ -184,6 +185,46 @@ TEST(MitsubaShape, InstancesAreCopies) {
     EXPECT_EQ(scene.triangles.size(), 8u);
     expect_near(bounds(scene).min, {-6, -1, 0});
     expect_near(bounds(scene).max, {6, 1, 1});
+}
+
+/// The normal at the middle of the instance's only shape, a square in z = 0 that faces +z before it is
+/// placed.
+TEST(MitsubaShape, InstancesThatMirrorLeaveNormalsOnTheirSide) {
+    const SceneFiles files;
+    files.write("bare.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    const std::string file = "<string name='filename' value='bare.obj'/>";
+    const std::string flat = "<boolean name='face_normals' value='true'/>";
+    const std::string mirror = to_world("<scale value='-1,1,1'/>");
+    const auto faces_front = [&](const std::string& own) {
+        const Scene scene = files.load_xml("<shape type='shapegroup' id='g'>" + own + "</shape>" +
+                                           shape("instance", "<ref id='g'/>" + mirror));
+        const Triangle t = scene.triangles[0];
+        const Vec3 a = scene.vertices[t.v0].position;
+        return cross(scene.vertices[t.v1].position - a, scene.vertices[t.v2].position - a).z > 0.0f;
+    };
+    EXPECT_TRUE(faces_front(shape("rectangle")));
+    EXPECT_TRUE(faces_front(shape("obj", file)));
+    EXPECT_TRUE(faces_front(shape("obj", file + flat)));
+    EXPECT_FALSE(faces_front(shape("obj", file + mirror))) << "its own transform turns it over";
+    const Scene ball = files.load_xml("<shape type='shapegroup' id='g'>" + shape("sphere") + "</shape>" +
+                                      shape("instance", "<ref id='g'/>" + mirror));
+    EXPECT_GT(dot(ball.vertices[0].normal, ball.vertices[0].position), 0.0f);
+}
+
+TEST(MitsubaShape, FlatFacesOfCubesAndRectanglesStayOnTheirSide) {
+    const SceneFiles files;
+    const std::string body =
+        "<boolean name='face_normals' value='true'/>" + to_world("<scale value='-1,1,1'/>");
+    EXPECT_GT(surface_at(files.load_xml(shape("rectangle", body)), {0.1f, 0.15f, 0}).normal.z, 0.9f);
+    EXPECT_GT(surface_at(files.load_xml(shape("cube", body)), {0.1f, 0.15f, 1}).normal.z, 0.9f);
+}
+
+TEST(MitsubaShape, UnevenSpheresAreNoted) {
+    const SceneFiles files;
+    const Scene scene = files.load_xml(shape("sphere", to_world("<scale value='2,1,1'/>")));
+    EXPECT_TRUE(has_note(scene, "scales unevenly"));
+    const Scene even = files.load_xml(shape("sphere", to_world("<scale value='2'/>")));
+    EXPECT_FALSE(has_note(even, "scales unevenly"));
 }
 
 // Writes a picture that is red at the top left, green at the top right, blue at the bottom left and white at
@@ -203,6 +244,25 @@ std::string textured_shape(const std::string& texture_body = "") {
     return "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
            "value='corners.png'/>" +
            texture_body + "</texture></bsdf>";
+}
+
+/// As in Mitsuba, u and v are then the barycentric coordinates of a triangle's second and third corner.
+TEST(MitsubaTexture, MeshesWithoutCoordinatesHaveThoseOfTheirTriangles) {
+    const SceneFiles files;
+    write_corners(files);
+    files.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+    const std::string file = "<string name='filename' value='bare.obj'/>";
+    const Scene textured = files.load_xml(shape("obj", file + textured_shape()));
+    ASSERT_EQ(textured.vertices.size(), 6u);
+    for (const Triangle& t : textured.triangles) {
+        EXPECT_EQ(textured.vertices[t.v0].u, 0.0f);
+        EXPECT_EQ(textured.vertices[t.v0].v, 1.0f);
+        EXPECT_EQ(textured.vertices[t.v1].u, 1.0f);
+        EXPECT_EQ(textured.vertices[t.v1].v, 1.0f);
+        EXPECT_EQ(textured.vertices[t.v2].u, 0.0f);
+        EXPECT_EQ(textured.vertices[t.v2].v, 0.0f);
+    }
+    EXPECT_EQ(files.load_xml(shape("obj", file)).vertices.size(), 4u) << "no texture needs them";
 }
 
 TEST(MitsubaTexture, ObjIsUprightAndFlippableAndRectangleAsInMitsuba) {

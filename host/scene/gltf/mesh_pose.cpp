@@ -37,7 +37,7 @@ Mat4 blended(const GltfFile& file, const std::vector<Mat4>& joints, std::span<co
 }  // namespace
 
 void apply_morph_targets(const GltfFile& file, const tinygltf::Node& node, const tinygltf::Mesh& source,
-                         const tinygltf::Primitive& primitive, Mesh& mesh) {
+                         const tinygltf::Primitive& primitive, Mesh& mesh, NoteSink& notes) {
     const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
     for (std::size_t i = 0; i < primitive.targets.size() && i < weights.size(); ++i) {
         if (weights[i] == 0.0 || !std::isfinite(weights[i])) {
@@ -48,6 +48,8 @@ void apply_morph_targets(const GltfFile& file, const tinygltf::Node& node, const
                 add_scaled(file, accessor, weights[i], mesh.positions);
             } else if (name == "NORMAL") {
                 add_scaled(file, accessor, weights[i], mesh.normals);
+            } else if (name != "TANGENT") {
+                notes.approximation(file.path, 0, "morph targets of " + name + " are left out");
             }
         }
     }

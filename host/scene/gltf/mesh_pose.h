@@ -10,9 +10,10 @@
 
 namespace nearlight::core::gltf {
 
-/// Adds the morph targets with the weights of the node, or else of the mesh.
+/// Adds the morph targets with the weights of the node, or else of the mesh, and notes those that are left
+/// out.
 void apply_morph_targets(const GltfFile& file, const tinygltf::Node& node, const tinygltf::Mesh& source,
-                         const tinygltf::Primitive& primitive, Mesh& mesh);
+                         const tinygltf::Primitive& primitive, Mesh& mesh, NoteSink& notes);
 
 /// The transforms of a skin's joints, from the space of the mesh to the world. Calls fail() if the skin is
 /// broken. `world` has the transform of each node of the file.

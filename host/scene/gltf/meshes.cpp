@@ -71,6 +71,24 @@ bool is_mirrored(const Mesh& mesh, const std::array<uint, 3>& t) {
     return (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/// Whether TANGENT, which is not read, differs from the directions of u of many triangles. It has four
+/// numbers a vertex.
+bool has_other_tangents(const Mesh& mesh, std::span<const float> tangents) {
+    constexpr float kMinCosine = 0.5f;
+    constexpr std::size_t kMaxShare = 20;  // one triangle in so many may differ, as at seams and poles
+    std::size_t others = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const float v1 = mesh.uvs[b][1] - mesh.uvs[a][1];
+        const float v2 = mesh.uvs[c][1] - mesh.uvs[a][1];
+        const float turn = is_mirrored(mesh, {a, b, c}) ? -1.0f : 1.0f;
+        const Vec3 along_u = normalize((mesh.positions[b] - mesh.positions[a]) * (turn * v2) -
+                                       (mesh.positions[c] - mesh.positions[a]) * (turn * v1));
+        const Vec3 tangent{tangents[4 * a], tangents[4 * a + 1], tangents[4 * a + 2]};
+        others += dot(along_u, tangent) < kMinCosine ? 1 : 0;
+    }
+    return others * kMaxShare > mesh.triangles.size();
+}
+
 /// Sorts the triangles by whether (u, v) runs clockwise, which turns normal maps over.
 void group_by_side(Mesh& mesh) {
     for (const std::array<uint, 3>& triangle : mesh.triangles) {
@@ -119,9 +137,24 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
         file_.fail("the mesh of node '" + node.name + "' has a position that is not finite");
     }
     if (materials_.has_normal_map(primitive.material) && !mesh.uvs.empty()) {
+        // Tangents of a mesh in a pose would have to be posed as well.
+        if (node.skin < 0 && primitive.targets.empty()) {
+            note_other_tangents(data, mesh);
+        }
         group_by_side(mesh);
     }
     return mesh;
+}
+
+void MeshMaker::note_other_tangents(const PrimitiveData& data, const Mesh& mesh) {
+    if (!data.has("TANGENT")) {
+        return;
+    }
+    const std::vector<float> tangents = data.read("TANGENT", 4);
+    if (tangents.size() == 4 * mesh.positions.size() && has_other_tangents(mesh, tangents)) {
+        notes_.approximation(
+            file_.path, 0, "TANGENT differs from the texture coordinates, which normal maps follow instead");
+    }
 }
 
 /// Reads COLOR_0. Its alpha counts where the material is transparent, and stands where second texture
@@ -149,8 +182,8 @@ void MeshMaker::read_colors(const PrimitiveData& data, int material, Mesh& mesh)
 
 void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                            const PrimitiveData& data, Mesh& mesh) {
-    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive,
-                        mesh);
+    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive, mesh,
+                        notes_);
     if (node.skin < 0) {
         return;
     }

@@ -27,6 +27,8 @@ class MeshMaker {
                        const std::vector<Mat4>& placements);
     [[nodiscard]] Mesh read_mesh(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                                  const PrimitiveData& data);
+    /// Notes tangents that differ from those of the texture coordinates.
+    void note_other_tangents(const PrimitiveData& data, const Mesh& mesh);
     void read_colors(const PrimitiveData& data, int material, Mesh& mesh);
     void apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                     const PrimitiveData& data, Mesh& mesh);

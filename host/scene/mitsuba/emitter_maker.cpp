@@ -18,9 +18,11 @@ Mat4 turn_of_environment(const Mat4& m, const Location& where, NoteSink& notes) 
     constexpr double kMaxSkew = 1e-3;  // of rounded numbers
     Mat4 rotation;
     double skew = 0.0;
+    double scale = 1.0;
     for (int column = 0; column < 3; ++column) {
         std::array<double, 3> axis{m(0, column), m(1, column), m(2, column)};
         const double whole = std::hypot(axis[0], axis[1], axis[2]);
+        scale = std::abs(whole - 1.0) > std::abs(scale - 1.0) ? whole : scale;
         for (int other = 0; other < column; ++other) {
             const double along =
                 rotation(0, other) * axis[0] + rotation(1, other) * axis[1] + rotation(2, other) * axis[2];
@@ -39,6 +41,9 @@ Mat4 turn_of_environment(const Mat4& m, const Location& where, NoteSink& notes) 
     }
     if (skew > kMaxSkew) {
         note(notes, where, "the to_world of an environment shears, which is left out");
+    }
+    if (std::abs(scale - 1.0) > kMaxSkew) {
+        note(notes, where, "the to_world of an environment scales, which is left out");
     }
     return rotation;
 }
@@ -90,6 +95,12 @@ void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, No
         fail(emitter.where, "'power' is not supported; give 'intensity' or 'radiance'");
     }
     if (const std::optional<Emitter> light = make_delta_light(emitter, scene, textures, notes)) {
+        if (emitter.number("sampling_weight", 1.0) == 0.0) {
+            note(notes, emitter.where,
+                 "a light whose sampling_weight is 0 is left out, as nothing finds it in Mitsuba");
+            emitter.report_unused(notes);
+            return;
+        }
         scene.delta_emitters.push_back(*light);
     } else if (emitter.type == "constant" || emitter.type == "envmap" || is_sky(emitter)) {
         if (scene.environment.width > 0) {

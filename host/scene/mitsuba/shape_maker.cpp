@@ -2,6 +2,9 @@
 #include "host/scene/mitsuba/shape_maker.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 #include "host/scene/material_model.h"
 #include "host/scene/mitsuba/round_lamp.h"
@@ -49,9 +52,46 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
-// Mitsuba turns a mirrored sphere or cylinder inside out, and no other shape.
-bool turns_inside_out(const Object& shape, const Mat4& to_world) {
-    return (shape.type == "sphere" || shape.type == "cylinder") && linear_determinant(to_world) < 0.0;
+/// Whether anything of these materials is looked up by texture coordinates.
+bool has_textures(const Scene& scene, std::span<const uint> materials, int depth = 0) {
+    const auto is_placed = [&](const Parameter& parameter) {
+        return parameter.texture >= 0 &&
+               scene.textures[static_cast<std::size_t>(parameter.texture)].parameters.kind !=
+                   NEARLIGHT_TEXTURE_VERTEX_COLOR;
+    };
+    return depth <= NEARLIGHT_MAX_BSDF_NESTING && std::ranges::any_of(materials, [&](uint index) {
+               const Material& material = scene.materials[index];
+               const std::span parameters(&material.reflectance, NEARLIGHT_PARAMETER_COUNT);
+               return std::ranges::any_of(parameters, is_placed) ||
+                      has_textures(scene, children(material), depth + 1);
+           });
+}
+
+bool is_mesh_file(const Object& shape) {
+    return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
+}
+
+// In Mitsuba a sphere is inside out if its own transform mirrors it. Normals that follow from the corners of
+// a mesh are made before an instance is placed, so that an instance that mirrors leaves them on their side.
+bool turns_inside_out(const Object& shape, bool has_own_normals, const Mat4& own, const Mat4& by_instance) {
+    return (shape.type == "sphere" && linear_determinant(own) < 0.0) ||
+           (is_mesh_file(shape) && !has_own_normals && linear_determinant(by_instance) < 0.0);
+}
+
+// Mitsuba makes a sphere of the radius that the x axis gets. The ellipsoid that the transform asks for is
+// made here.
+void note_uneven_sphere(const Object& shape, const Mat4& to_world, NoteSink& notes) {
+    constexpr double kMaxUnevenness = 1e-3;
+    std::array<double, 3> radii{};
+    for (int column = 0; column < 3; ++column) {
+        radii.at(static_cast<std::size_t>(column)) =
+            std::hypot(to_world(0, column), to_world(1, column), to_world(2, column));
+    }
+    const auto [least, most] = std::ranges::minmax(radii);
+    if (shape.type == "sphere" && most - least > kMaxUnevenness * most) {
+        note(notes, shape.where,
+             "the to_world of a sphere scales unevenly; it is an ellipsoid, but a sphere in Mitsuba");
+    }
 }
 
 }  // namespace
@@ -87,7 +127,7 @@ void ShapeMaker::add(const Object& shape, uint depth) {
         shape.report_unused(notes_);
         return;
     }
-    add_placed(shape, load(shape), shape.transform("to_world") * local_placement(shape));
+    add_placed(shape, load(shape), shape.transform("to_world") * local_placement(shape), Mat4{});
 }
 
 void ShapeMaker::add_instance(const Object& instance) {
@@ -105,7 +145,7 @@ void ShapeMaker::add_instance(const Object& instance) {
         if (found == group_meshes_.end()) {
             found = group_meshes_.emplace(shape, load(*shape)).first;
         }
-        add_placed(*shape, found->second, to_world * shape->transform("to_world") * local_placement(*shape),
+        add_placed(*shape, found->second, shape->transform("to_world") * local_placement(*shape), to_world,
                    name + "/");
     }
     instance.report_unused(notes_);
@@ -175,8 +215,8 @@ std::vector<uint> ShapeMaker::materials_by_name(const Object& shape, const ObjFi
     return materials;
 }
 
-void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& to_world,
-                            const std::string& instance) {
+void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& own,
+                            const Mat4& by_instance, const std::string& instance) {
     if (!shape.nested("subsurface").empty()) {
         fail(shape.where, "subsurface scattering is not supported");
     }
@@ -187,14 +227,21 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
     const Mesh& mesh = loaded.mesh;
     const std::vector<uint> materials =
         loaded.materials.empty() ? std::vector{material_of(shape, emitted)} : loaded.materials;
-    const bool flips = shape.boolean("flip_normals", false) != turns_inside_out(shape, to_world);
+    const Mat4 to_world = by_instance * own;
+    // The faces of the other shapes are flat or round whatever the file says.
+    const bool face_normals = is_mesh_file(shape) ? shape.boolean("face_normals", mesh.face_normals) : false;
+    const bool has_own_normals = !mesh.normals.empty() && !face_normals;
+    const bool flips =
+        shape.boolean("flip_normals", false) != turns_inside_out(shape, has_own_normals, own, by_instance);
+    note_uneven_sphere(shape, to_world, notes_);
     const std::size_t first_triangle = scene_.triangles.size();
     begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));
     append_mesh(scene_, mesh,
                 {.to_world = to_world,
                  .materials = materials,
-                 .face_normals = shape.boolean("face_normals", mesh.face_normals),
-                 .flip_normals = flips},
+                 .face_normals = face_normals,
+                 .flip_normals = flips,
+                 .corner_uvs = mesh.uvs.empty() && is_mesh_file(shape) && has_textures(scene_, materials)},
                 notes_);
     const bool is_even = emitted.texture < 0 && !is_zero(emitted.value);
     const bool is_whole = scene_.triangles.size() - first_triangle == mesh.triangles.size();
@@ -204,12 +251,15 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
         }
     }
     shape.ignore({"collapse", "load_materials"});
+    if (shape.type == "cube" || shape.type == "rectangle") {
+        shape.ignore({"face_normals"});
+    }
     shape.report_unused(notes_);
 }
 
 ShapeMaker::LoadedMesh ShapeMaker::load(const Object& shape) {
     const std::string& type = shape.type;
-    if (type == "obj" || type == "ply" || type == "serialized") {
+    if (is_mesh_file(shape)) {
         return load_file(shape);
     }
     if (type == "rectangle") {

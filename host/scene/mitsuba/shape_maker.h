@@ -32,8 +32,9 @@ class ShapeMaker {
         std::vector<uint> materials;
     };
 
-    /// Adds the shape as an object of its name, after that of the instance whose part it is.
-    void add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& to_world,
+    /// Adds the shape, placed by its own transform and then by that of an instance, as an object of its name,
+    /// after that of the instance.
+    void add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& own, const Mat4& by_instance,
                     const std::string& instance = {});
     [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;
     void add_instance(const Object& instance);

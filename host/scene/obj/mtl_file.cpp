@@ -94,9 +94,24 @@ bool is_number(const std::string& word) {
     return number_in(word).has_value();
 }
 
+/// A line of one number for a colour, whose green and blue are then the same as its red; other lines are
+/// returned as they are.
+std::string with_whole_color(std::string_view line) {
+    for (const std::string_view statement : {"Ka", "Kd", "Ks", "Ke", "Kt", "Tf"}) {
+        if (starts_with_word(line, statement)) {
+            const std::vector<std::string> words = split(value_after(line, statement), ' ');
+            if (words.size() == 1 && is_number(words[0])) {
+                return std::string(statement) + " " + words[0] + " " + words[0] + " " + words[0];
+            }
+        }
+    }
+    return std::string(line);
+}
+
 /// Gives the options -s, -o and -t of textures three numbers, where they have one or two, because
-/// tinyobjloader takes the name of the file for a missing one. The option -halo goes behind its number,
-/// because tinyobjloader takes it for the number.
+/// tinyobjloader takes the name of the file for a missing one, and colours of one number three. The option
+/// -halo goes behind its number, because tinyobjloader takes it for the number, and -cc, which it takes for
+/// the name of a file, goes altogether.
 void complete_options(std::string& text) {
     std::string completed;
     for_each_line(text, [&](int, std::string_view line) {
@@ -107,11 +122,15 @@ void complete_options(std::string& text) {
         const bool is_map = line.find("map_") != std::string_view::npos || starts_with_word(line, "bump") ||
                             starts_with_word(line, "norm");
         if (!is_map || line.find(" -") == std::string_view::npos) {
-            completed.append(line).append("\n");
+            completed.append(with_whole_color(line)).append("\n");
             return true;
         }
         const std::vector<std::string> words = split(line, ' ');
         for (std::size_t i = 0; i < words.size(); ++i) {
+            if (words[i] == "-cc" && i + 1 < words.size()) {
+                ++i;
+                continue;
+            }
             completed += (i == 0 ? "" : " ") + words[i];
             if (words[i] != "-s" && words[i] != "-o" && words[i] != "-t") {
                 continue;
