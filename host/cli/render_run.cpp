@@ -12,6 +12,7 @@
 #include "host/cli/matte_layers.h"
 #include "host/cli/picture_keeper.h"
 #include "host/cli/progress_bar.h"
+#include "host/scene/ray_epsilon.h"
 #include "host/session/passes.h"
 
 namespace nearlight::core {
@@ -79,6 +80,20 @@ std::optional<ImagePlace> place_of(const GatherSettings& settings, const View& v
                       .y = static_cast<int>(settings.window->y),
                       .whole_width = static_cast<int>(view.camera.width),
                       .whole_height = static_cast<int>(view.camera.height)};
+}
+
+/// Warns where rays start so far off surfaces that what is near the camera lights its neighbours too little,
+/// because the scene is so much wider than the view.
+void warn_of_wide_scene(const Scene& scene, const View& view) {
+    constexpr float kMaxPartOfRange = 1.0f / 200;
+    const float extent = max_component(bounds(scene).size());
+    const float offset = ray_epsilon({0, 0, 0}, extent);
+    if (offset > kMaxPartOfRange * view.close_range.range) {
+        spdlog::warn(
+            "the scene is {:.2g} m wide, so that surfaces closer together than about {:.2g} m light each "
+            "other too little; leave out what lies far away, such as the rim of a large ground",
+            extent, offset);
+    }
 }
 
 /// Logs the device time of each kernel.
@@ -317,6 +332,9 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     hooks.open = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
         save(run.options.vpl_files, session, view, vpls);
         sinks.open(run, started, view);
+        if (!run.frame) {
+            warn_of_wide_scene(*run.scene, view);
+        }
     };
     hooks.rows = [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); };
     hooks.progress = [&](double fraction) {
