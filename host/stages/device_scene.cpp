@@ -12,20 +12,32 @@
 namespace nearlight::core {
 namespace {
 
-/// The words of all images one after the other, and the textures that say where each image begins.
-struct TexturePool {
-    std::vector<Texture> textures;
-    std::vector<uint> words;
-};
-
-TexturePool pool_textures(const Scene& scene) {
-    TexturePool pool;
-    std::vector<uint> first_words;
+/// The words of all images one after the other. Each image is copied by itself, because all of them may be
+/// most of what the machine has memory for.
+Buffer<uint> pool_of_words(Device& device, const Scene& scene) {
+    std::size_t count = 0;
     for (const TextureImage& image : scene.images) {
-        first_words.push_back(static_cast<uint>(pool.words.size()));
-        pool.words.insert(pool.words.end(), image.words.begin(), image.words.end());
+        count += image.words.size();
     }
-    to_kernel_count(pool.words.size(), "words of textures");
+    to_kernel_count(count, "words of textures");
+    Buffer<uint> words(device, count);
+    std::size_t first = 0;
+    for (const TextureImage& image : scene.images) {
+        words.upload(image.words, first);
+        first += image.words.size();
+    }
+    return words;
+}
+
+/// The textures, with the places of their images in the pool of words.
+std::vector<Texture> pooled_textures(const Scene& scene) {
+    std::vector<uint> first_words;
+    uint first = 0;
+    for (const TextureImage& image : scene.images) {
+        first_words.push_back(first);
+        first += static_cast<uint>(image.words.size());
+    }
+    std::vector<Texture> textures;
     for (const SceneTexture& texture : scene.textures) {
         Texture pooled = texture.parameters;
         if (pooled.kind == NEARLIGHT_TEXTURE_BITMAP) {
@@ -35,9 +47,9 @@ TexturePool pool_textures(const Scene& scene) {
             pooled.height = static_cast<uint>(scene.images[image].height);
             pooled.format = scene.images[image].format;
         }
-        pool.textures.push_back(pooled);
+        textures.push_back(pooled);
     }
-    return pool;
+    return textures;
 }
 
 /// Averages what surfaces reflect or let through over triangles that lie equal areas apart. That is good
@@ -127,7 +139,6 @@ SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
 DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     const EmitterTable emitters = build_emitter_table(scene);
     const EnvironmentTable environment = build_environment_table(scene);
-    const TexturePool pool = pool_textures(scene);
 
     DeviceScene on_device;
     on_device.host_info = describe(scene, emitters);
@@ -149,8 +160,8 @@ DeviceScene upload_surfaces_and_lights(Device& device, const Scene& scene) {
     on_device.vertices = put(scene.vertices);
     on_device.triangles = put(scene.triangles);
     on_device.materials = put(device_materials(scene));
-    on_device.textures = put(pool.textures);
-    on_device.texels = put(pool.words);
+    on_device.textures = put(pooled_textures(scene));
+    on_device.texels = pool_of_words(device, scene);
     on_device.vertex_colors = put(scene.vertex_colors);
     on_device.second_uvs = put(scene.second_uvs);
     on_device.curves = put(scene.transmission_curves);
