@@ -54,6 +54,13 @@ def _transforms():
         'negative-scale-cube': _lit(shape('cube', PAINT, to_world=place((-0.5, 0.5, 0.5), (0, 0.5, 0), turn('y', 30)))),
         'negative-scale-rectangle': _lit(shape('rectangle', PAINT, to_world=place((-0.8, 0.8, 1), (0, 0.9, 0)))),
         'negative-scale-rectangle-z': _lit(shape('rectangle', PAINT, to_world=place((0.8, 0.8, -1), (0, 0.9, 0)))),
+        'negative-scale-cylinder': _lit(shape('cylinder', PAINT, to_world=place((-0.5, 0.5, 1.2), (0, 0.2, 0), turn('x', -90)))),
+        'negative-scale-face-normals': _lit(shape('cube', PAINT, face_normals=True,
+            to_world=place((-0.5, 0.5, 0.5), (0, 0.5, 0), turn('y', 30)))),
+        'negative-scale-instance': scene(
+            with_id('mirrored', shape('shapegroup', sphere(PAINT, at=(-0.6, 0.5, 0), radius=0.4),
+                mesh('ball.obj', PAINT, face_normals=True, to_world=place(0.4, (0.6, 0.5, 0))))),
+            *stage(shape('instance', ref('mirrored'), to_world=place((-1, 1, 1), (0, 0.1, 0)))), point_light(), depth=4),
         'negative-scale-all': _lit(mesh('fine_ball.obj', PAINT, to_world=place(-0.7, (0, 0.75, 0)))),
         'uneven-scale': _lit(mesh('ball.obj', PAINT, to_world=place((1.1, 0.5, 0.4), (0, 0.75, 0), turn('z', 30)))),
         'matrix': _lit(shape('cube', PAINT,
