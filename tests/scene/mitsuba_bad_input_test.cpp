@@ -20,6 +20,14 @@ struct BadInput {
     const char* warning;
 };
 
+TEST(MitsubaEmitter, LightsThatNothingFindsAreLeftOut) {
+    const SceneFiles files;
+    const Scene scene = files.load_xml(
+        "<emitter type='point'><float name='sampling_weight' value='0'/></emitter><emitter type='point'/>");
+    EXPECT_EQ(scene.delta_emitters.size(), 1u);
+    EXPECT_TRUE(has_note(scene, "sampling_weight is 0"));
+}
+
 TEST_F(MitsubaBadInput, BadNumbersGetOneWarningAndAUsableMaterial) {
     const std::string diffuse = "<bsdf type='diffuse'/>";
     const BadInput cases[] = {

@@ -137,14 +137,6 @@ TEST(MitsubaTransform, OneNumberStandsForThree) {
                  "'1,2' should be three numbers"));
 }
 
-TEST(MitsubaEmitter, LightsThatNothingFindsAreLeftOut) {
-    const SceneFiles files;
-    const Scene scene = files.load_xml(
-        "<emitter type='point'><float name='sampling_weight' value='0'/></emitter><emitter type='point'/>");
-    EXPECT_EQ(scene.delta_emitters.size(), 1u);
-    EXPECT_TRUE(has_note(scene, "sampling_weight is 0"));
-}
-
 TEST(MitsubaEmitter, SpotTextureProjectorAndDirectional) {
     const SceneFiles files;
     write_image(files.path("wide.exr"), make_image(4, 2, {"R", "G", "B"}));

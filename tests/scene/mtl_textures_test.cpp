@@ -34,6 +34,17 @@ class ObjTextures : public testing::Test {
     Scene scene_;
 };
 
+TEST_F(ObjTextures, ColoursOfOneNumberAreGrey) {
+    const Material two_sided = load("Kd .4\n");
+    expect_near(scene_.materials[two_sided.child[0]].reflectance.value, {0.4f, 0.4f, 0.4f});
+}
+
+TEST_F(ObjTextures, TheOptionOfColourCorrectionIsNoPartOfTheName) {
+    write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
+    const Material two_sided = load("map_Kd -cc on a.exr\n");
+    EXPECT_GE(scene_.materials[two_sided.child[0]].reflectance.texture, 0);
+}
+
 TEST_F(ObjTextures, OptionsPlaceThem) {
     write_image("a.exr", {"R", "G", "B"}, {0.5f, 0.25f, 0.125f});
     const Material two_sided = load("map_Kd -s 4 2 1 -o 0.5 0.25 0 -clamp on a.exr\n");

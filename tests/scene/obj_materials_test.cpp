@@ -135,12 +135,6 @@ TEST(Obj, HaloIsNoOpacity) {
     EXPECT_TRUE(has_note(scene, "m.mtl:1: the opacity (d -halo)"));
 }
 
-TEST(Obj, ColoursOfOneNumberAreGrey) {
-    const SceneFiles files;
-    expect_near(only_material(files, "Kd .4\n").reflectance.value, {0.4f, 0.4f, 0.4f});
-    expect_near(only_material(files, "Kd 0.1 0.2 0.3\n").reflectance.value, {0.1f, 0.2f, 0.3f});
-}
-
 TEST(Obj, RoughnessAndMetalnessArePrincipled) {
     const SceneFiles files;
     const Material metal =
