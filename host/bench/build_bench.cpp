@@ -62,8 +62,7 @@ BuiltTree describe(const Contender& contender, std::size_t triangles, const Tree
     const Bvh bvh = contender.build();
     BuiltTree tree;
     tree.name = contender.name;
-    tree.seconds = {median(readings(contender.seconds, &Seconds::wall)),
-                    median(readings(contender.seconds, &Seconds::processor))};
+    tree.seconds = medians(contender.seconds);
     tree.sah_cost = bvh.sah_cost;
     tree.nodes = bvh.nodes.size();
     tree.duplication = static_cast<double>(bvh.triangles.size()) / static_cast<double>(triangles) - 1.0;
@@ -93,8 +92,8 @@ BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config)
     }
     const TreeSteps& ours = result.trees[1].steps;
     const TreeSteps& theirs = result.trees[3].steps;
-    result.ratio = {ratio(all[1].seconds, all[3].seconds, &Seconds::wall).median,
-                    ratio(all[1].seconds, all[3].seconds, &Seconds::processor).median};
+    result.ratio_seconds = ratio(all[1].seconds, all[3].seconds, &Seconds::wall).median;
+    result.ratio_processor_seconds = ratio(all[1].seconds, all[3].seconds, &Seconds::processor).median;
     result.ratio_ray_steps =
         (ours.nodes_per_ray + ours.triangles_per_ray) / (theirs.nodes_per_ray + theirs.triangles_per_ray);
     result.ratio_packet_steps = (ours.nodes_per_packet + ours.triangles_per_packet) /

@@ -38,10 +38,10 @@ struct BuiltTree {
 struct BuildBenchResult {
     std::size_t triangles = 0;
     std::vector<BuiltTree> trees;  ///< our fast and quality trees, then Embree's medium and high
-    /// Seconds of our quality ÷ those of Embree's high: median of the ratios of all repeats.
-    Seconds ratio;
-    double ratio_ray_steps = 0.0;     ///< our quality ÷ Embree's high, nodes and triangles together
-    double ratio_packet_steps = 0.0;  ///< as ratio_ray_steps, for packets
+    double ratio_seconds = 0.0;    ///< our quality ÷ Embree's high: median of the ratios of all repeats
+    double ratio_processor_seconds = 0.0;  ///< as ratio_seconds, by processor time
+    double ratio_ray_steps = 0.0;          ///< our quality ÷ Embree's high, nodes and triangles together
+    double ratio_packet_steps = 0.0;       ///< as ratio_ray_steps, for packets
 };
 
 BuildBenchResult bench_build(const Scene& scene, const BuildBenchConfig& config = {});

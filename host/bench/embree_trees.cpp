@@ -6,7 +6,6 @@
 #include <new>
 #include <string>
 
-#include "host/base/stopwatch.h"
 #include "host/bvh/flatten.h"
 #include "host/bvh/reference.h"
 #include "host/bvh/sah_builder.h"

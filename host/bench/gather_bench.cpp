@@ -151,8 +151,7 @@ void compare_answers(const GatherSegments& segments, const Bvh& bvh, std::span<c
 
 void summarise(GatherBenchResult& result, std::span<const std::vector<Seconds>> runs, bool is_cpu) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        result.tracers[i].median = {median(readings(runs[i], &Seconds::wall)),
-                                    median(readings(runs[i], &Seconds::processor))};
+        result.tracers[i].median = medians(runs[i]);
     }
     result.ours = fastest_tracer(result.tracers, 0);
     result.embree1 = fastest_tracer(result.tracers, 1);

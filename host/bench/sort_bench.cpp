@@ -154,8 +154,7 @@ SortBenchResult bench_sort(Device& device, const SortBenchConfig& config) {
         }
     }
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        result.figures[i].median = {median(readings(runs[i], &Seconds::wall)),
-                                    median(readings(runs[i], &Seconds::processor))};
+        result.figures[i].median = medians(runs[i]);
     }
     const auto add_ratio = [&](const std::string& name, std::size_t theirs, std::size_t ours, double factor) {
         const double processor = factor * ratio(runs[theirs], runs[ours], &Seconds::processor).median;

@@ -28,6 +28,11 @@ inline std::vector<double> readings(const std::vector<Seconds>& runs, double Sec
     return values;
 }
 
+/// The median of each clock.
+inline Seconds medians(const std::vector<Seconds>& runs) {
+    return {median(readings(runs, &Seconds::wall)), median(readings(runs, &Seconds::processor))};
+}
+
 struct Ratio {
     double median = 0.0;
     double deviation = 0.0;  ///< median absolute deviation

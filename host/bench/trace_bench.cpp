@@ -93,9 +93,7 @@ std::vector<std::vector<Seconds>> race(const std::vector<RayContestant>& contest
         std::ranges::count_if(truth, [](float distance) { return std::isfinite(distance); }));
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         result.tracers.push_back(
-            {contestants[i].name,
-             {median(readings(runs[i], &Seconds::wall)), median(readings(runs[i], &Seconds::processor))},
-             count_differing(distances[i], truth)});
+            {contestants[i].name, medians(runs[i]), count_differing(distances[i], truth)});
     }
     return runs;
 }

@@ -230,7 +230,7 @@ std::uint32_t decide(const Trial& trial, std::span<const Runner> runners, std::u
         if (runs.empty() || runners[of_usual].runs.empty()) {
             continue;
         }
-        one.median = {median(readings(runs, &Seconds::wall)), median(readings(runs, &Seconds::processor))};
+        one.median = medians(runs);
         one.to_usual = ratio(runs, runners[of_usual].runs, clock);
         const double surely = one.to_usual.median + 2.0 * one.to_usual.deviation;
         if (one.value != usual && surely < 1.0 && one.to_usual.median < best_ratio) {

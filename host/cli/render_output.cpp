@@ -61,20 +61,23 @@ void add_passes(nlohmann::ordered_json& json, const RenderSettings& settings, co
 }
 
 /// Whether pixels ask about a part of the set only. A file of VPLs says so itself.
-bool has_cuts(const SamplingSettings& sampling, const RenderReport& report) {
+bool asks_part(const SamplingSettings& sampling, const RenderReport& report) {
     return sampling.file.empty() ? sampling.cuts : report.asked_count > 0;
 }
 
 void add_vpls(nlohmann::ordered_json& json, const RenderSettings& settings, const RenderReport& report) {
     const bool is_loaded = !settings.sampling.file.empty();
     const std::size_t count = report.totals.close_vpls + report.totals.distant_vpls;
-    json["vpls"] = {{"requested", is_loaded ? nlohmann::ordered_json() : nlohmann::ordered_json(settings.sampling.vpl_count)},
+    json["vpls"] = {{"requested", settings.sampling.vpl_count},
                     {"set", is_loaded ? count : settings.sampling.set_count_or_auto()},
                     {"close", report.totals.close_vpls},
                     {"distant", report.totals.distant_vpls},
                     {"sparse", report.totals.sparse_vpls},
                     {"candidates", report.totals.candidates},
                     {"local_lights", report.totals.local_lights}};
+    if (is_loaded) {
+        json["vpls"]["requested"] = nullptr;
+    }
     json["close_fraction"] = report.close_fraction;
     json["range"] = report.range;
 }
@@ -93,7 +96,7 @@ void add_method(nlohmann::ordered_json& json, const RenderFacts& facts) {
     json["filter"] = to_string(report.filter.kind);
     json["seed"] = settings.seed;
     json["bvh"] = to_string(facts.bvh);
-    json["cuts"] = has_cuts(settings.sampling, report);
+    json["cuts"] = asks_part(settings.sampling, report);
     json["roulette"] = settings.gather.roulette;
     json["denoiser"] = facts.picture.denoiser();
 }
@@ -160,7 +163,7 @@ Metadata render_metadata(std::uint64_t scene_hash, const SceneOptions& scene, co
     metadata["nearlight:vpls"] = count_value(vpls);
     metadata["nearlight:vplsAsked"] =
         count_value(settings.sampling.file.empty() ? settings.sampling.vpl_count : of_file);
-    metadata["nearlight:cuts"] = has_cuts(settings.sampling, report) ? "on" : "off";
+    metadata["nearlight:cuts"] = asks_part(settings.sampling, report) ? "on" : "off";
     metadata["nearlight:spp"] = static_cast<int>(settings.gather.samples_per_pixel);
     metadata["nearlight:strata"] = static_cast<int>(settings.gather.strata_or_auto());
     metadata["nearlight:preview"] = settings.gather.interleave > 1 ? "on" : "off";

@@ -12,7 +12,6 @@
 #include "host/cli/matte_layers.h"
 #include "host/cli/picture_keeper.h"
 #include "host/cli/progress_bar.h"
-#include "host/scene/ray_epsilon.h"
 #include "host/session/passes.h"
 
 namespace nearlight::core {
@@ -80,20 +79,6 @@ std::optional<ImagePlace> place_of(const GatherSettings& settings, const View& v
                       .y = static_cast<int>(settings.window->y),
                       .whole_width = static_cast<int>(view.camera.width),
                       .whole_height = static_cast<int>(view.camera.height)};
-}
-
-/// Warns where rays start so far off surfaces that what is near the camera lights its neighbours too little,
-/// because the scene is so much wider than the view.
-void warn_of_wide_scene(const Scene& scene, const View& view) {
-    constexpr float kMaxPartOfRange = 1.0f / 200;
-    const float extent = max_component(bounds(scene).size());
-    const float offset = ray_epsilon({0, 0, 0}, extent);
-    if (offset > kMaxPartOfRange * view.close_range.range) {
-        spdlog::warn(
-            "the scene is {:.2g} m wide, so that surfaces closer together than about {:.2g} m light each "
-            "other too little; leave out what lies far away, such as the rim of a large ground",
-            extent, offset);
-    }
 }
 
 /// Logs the device time of each kernel.
@@ -196,17 +181,16 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
 nlohmann::ordered_json json_of(const RenderRun& run, const RenderReport& report, const RowSinks& sinks,
                                bool has_checkpoint) {
     const RenderOptions& options = run.options;
-    const bool is_written = sinks.has_rows || !report.interrupted;
-    nlohmann::ordered_json json =
-        render_json({.scene = options.scene,
-                     .outputs = is_written ? options.picture.outputs : std::vector<std::string>(),
-                     .settings = run.settings,
-                     .bvh = options.session.bvh_quality,
-                     .report = report,
-                     .picture = sinks.picture,
-                     .load_seconds = run.load_seconds,
-                     .first_rows = sinks.first_rows,
-                     .devices = run.devices});
+    nlohmann::ordered_json json = render_json(
+        {.scene = options.scene,
+         .outputs = sinks.are_written(report) ? options.picture.outputs : std::vector<std::string>(),
+         .settings = run.settings,
+         .bvh = options.session.bvh_quality,
+         .report = report,
+         .picture = sinks.picture,
+         .load_seconds = run.load_seconds,
+         .first_rows = sinks.first_rows,
+         .devices = run.devices});
     json["first_pass"] = options.checkpoint.first_pass;
     json["checkpoint"] = has_checkpoint ? nlohmann::ordered_json(options.checkpoint.file.string()) : nullptr;
     if (run.frame) {
@@ -332,9 +316,6 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     hooks.open = [&](const RenderReport& started, const View& view, const VplSet& vpls) {
         save(run.options.vpl_files, session, view, vpls);
         sinks.open(run, started, view);
-        if (!run.frame) {
-            warn_of_wide_scene(*run.scene, view);
-        }
     };
     hooks.rows = [&](std::span<const float> rows) { sinks.add_rows(rows, since_begin); };
     hooks.progress = [&](double fraction) {
@@ -346,8 +327,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     RenderReport report =
         render(session, in_time_left(run.settings, seconds_before), hooks, std::move(start.passes));
     bar.clear();
-    // Without any row, files that are there are better than black ones.
-    const bool has_rows = sinks.has_rows || !report.interrupted;
+    const bool has_rows = sinks.are_written(report);
     if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
         sinks.picture.commit(since_begin, false,

@@ -88,6 +88,11 @@ struct RowSinks {
     bool has_rows = false;  ///< whether the files of the present picture have rows
     Camera camera{};        ///< of the picture
 
+    /// Whether the files get anything: without any row, files that are there are better than black ones.
+    [[nodiscard]] bool are_written(const RenderReport& report) const {
+        return has_rows || !report.interrupted;
+    }
+
     explicit RowSinks(const RenderOptions& options);
     void open(const RenderRun& run, const RenderReport& report, const View& view);
     void add_rows(std::span<const float> rows, const Stopwatch& since_begin);

@@ -39,10 +39,10 @@ struct CompareSettings {
     std::optional<float> clamp_radius;    ///< m
     std::optional<float> clamp_fraction;  ///< of the range; if neither is given, that of the reference's
                                           ///< file, or else kDefaultClampFraction
-    std::optional<float> range;      ///< range of the close range, m; empty: from the view
-    std::optional<uint> max_depth;   ///< in Mitsuba's counting; empty: the scene's, or 256
-    int reference_spp = 1024;        ///< samples per pixel of a path-traced reference
-    std::size_t reference_vpls = 0;  ///< VPLs of a reference of VPLs; 0: the reference is path-traced
+    std::optional<float> range;           ///< range of the close range, m; empty: from the view
+    std::optional<uint> max_depth;        ///< in Mitsuba's counting; empty: the scene's, or 256
+    int reference_spp = 1024;             ///< samples per pixel of a path-traced reference
+    std::size_t reference_vpls = 0;       ///< VPLs of a reference of VPLs; 0: the reference is path-traced
     /// The sampler of a reference of VPLs; empty: instant radiosity, as in the paper.
     std::optional<Method> reference_sampler;
     /// Made by `nearlight reference`; each is used for the scene that it shows.

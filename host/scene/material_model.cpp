@@ -191,6 +191,19 @@ int nesting(const Scene& scene, const Material& material) {
     return levels;
 }
 
+bool has_placed_textures(const Scene& scene, const Material& material) {
+    const auto is_placed = [&](const Parameter& parameter) {
+        return parameter.texture >= 0 &&
+               scene.textures[static_cast<std::size_t>(parameter.texture)].parameters.kind !=
+                   NEARLIGHT_TEXTURE_VERTEX_COLOR;
+    };
+    const std::span parameters(&material.reflectance, NEARLIGHT_PARAMETER_COUNT);
+    return std::ranges::any_of(parameters, is_placed) ||
+           std::ranges::any_of(children(material), [&](uint child) {
+               return has_placed_textures(scene, scene.materials[child]);
+           });
+}
+
 uint add_two_sided(Scene& scene, const Material& material) {
     const auto side = static_cast<uint>(scene.materials.size());
     scene.materials.push_back(material);

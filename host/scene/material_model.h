@@ -84,6 +84,9 @@ std::span<const uint> children(const Material& material);
 /// How many materials lie within each other below this one: 0 if it stands for no others.
 int nesting(const Scene& scene, const Material& material);
 
+/// Whether anything of the material, or of those that it stands for, is looked up by texture coordinates.
+bool has_placed_textures(const Scene& scene, const Material& material);
+
 /// Adds the two-sided material of a one-sided one, whose emission it takes over; returns its index.
 uint add_two_sided(Scene& scene, const Material& material);
 

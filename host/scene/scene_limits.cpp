@@ -2,9 +2,9 @@
 #include "host/scene/scene_limits.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "host/base/math.h"
+#include "host/base/short_text.h"
 #include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
@@ -34,12 +34,6 @@ bool limit_lights(Scene& scene) {
         limited |= limit(material.emission.value);
     }
     return limited;
-}
-
-std::string short_text(float value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g", static_cast<double>(value));
-    return text;
 }
 
 void remark_distance(const Scene& scene, NoteSink& notes) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace nearlight::core {
@@ -49,8 +50,9 @@ std::vector<float> error_norms(std::span<const float> beauty, uint width) {
 double relative_error(std::span<const float> variances, std::span<const float> norms) {
     std::vector<double> quotients(variances.size() / kErrorChannels);
     for (std::size_t i = 0; i < quotients.size() * kErrorChannels; ++i) {
-        if (variances[i] > 0.0f && norms[i] > 0.0f) {
-            quotients[i / kErrorChannels] += double{variances[i]} / double{norms[i]};
+        if (variances[i] > 0.0f) {
+            constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+            quotients[i / kErrorChannels] += double{variances[i]} / double{std::max(norms[i], kLeast)};
         }
     }
     const std::size_t kept = quotients.size() - quotients.size() / kPixelsPerOutlier;

@@ -113,6 +113,7 @@ View Session::look(const SceneCamera& camera, const ViewSettings& settings, uint
             find_openings(leader.device(), leader.scene, scene_, view.pilot, view.close_range, seed);
         view.sky_part =
             sky_part(leader.device(), leader.bands.receiver_paths, leader.scene, view.pilot, seed);
+        is_width_told_ = is_width_told_ || warn_of_width(leader.scene, view);
         return view;
     });
 }

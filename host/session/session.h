@@ -144,6 +144,7 @@ class Session {
     RemoteDevices remote_;
     SessionSeconds seconds_;
     double told_compile_seconds_ = 0;
+    bool is_width_told_ = false;  ///< whether a warning of the scene's width was given
 };
 
 /// Begins to compile the programs that a render with these settings needs, so that they compile while the

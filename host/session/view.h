@@ -19,8 +19,8 @@ struct View {
     /// Whether the settings left the clamp radius open. VPLs may then be gathered with a radius of their own
     /// (VplSet::ray_budget).
     bool clamp_radius_is_open = false;
-    bool has_ray_budget_pilot = true;  ///< whether Session::sample() runs the pilot of ray_budget.h
-    float sky_part = 0.0f;             ///< of rays of what the camera sees that meet the sky (sky_part.h)
+    bool has_ray_budget_pilot = true;      ///< whether Session::sample() runs the pilot of ray_budget.h
+    float sky_part = 0.0f;                 ///< of rays of what the camera sees that meet the sky (sky_part.h)
     uint max_depth = kUnlimitedPathDepth;  ///< maximum path length, as Mitsuba counts it
     uint seed = 0;                         ///< seed of the pilot view
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
@@ -31,5 +31,9 @@ struct View {
 /// of the range.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const SceneCamera& camera, const ViewSettings& settings, uint seed);
+
+/// Whether rays start so far off surfaces that what the view shows lights its neighbours too little, because
+/// the scene is so much wider; with a warning.
+bool warn_of_width(const DeviceScene& scene, const View& view);
 
 }  // namespace nearlight::core

@@ -82,7 +82,8 @@ TEST(BuildBench, DescribesFourTreesOverTheSameRays) {
         EXPECT_EQ(tree.steps.occluded, result.trees[0].steps.occluded);
     }
     EXPECT_EQ(result.trees[0].duplication, 0.0);
-    EXPECT_GT(result.ratio.wall, 0.0);
+    EXPECT_GT(result.ratio_seconds, 0.0);
+    EXPECT_GT(result.ratio_processor_seconds, 0.0);
 }
 
 }  // namespace

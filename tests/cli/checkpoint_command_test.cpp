@@ -240,6 +240,19 @@ TEST_F(CheckpointsOfRender, SayTheSameOfAPictureThatIsResumed) {
     EXPECT_LE(once["seconds"]["first_rows"], once["seconds"]["total"]);
 }
 
+TEST_F(CheckpointsOfRender, OptionsWithoutEffectAreTold) {
+    const ProgramResult single = run_program(arguments("a", "--checkpoint-every 1"));
+    EXPECT_NE(single.errors.find("--checkpoint-every changes nothing"), std::string::npos) << single.errors;
+    const ProgramResult several = run_program(arguments("a", "--checkpoint-every 1 --passes 2"));
+    EXPECT_EQ(several.errors.find("changes nothing"), std::string::npos) << several.errors;
+    render("b", "");
+    const ProgramResult merged =
+        merge({"b"}, "--exposure 2 --exr-precision float --checkpoint " + quoted(file("c")));
+    EXPECT_NE(merged.errors.find("--exposure and --tonemap change nothing"), std::string::npos)
+        << merged.errors;
+    EXPECT_NE(merged.errors.find("--exr-compression change nothing"), std::string::npos) << merged.errors;
+}
+
 // Its header says the size of the picture, but its sums are those of a smaller one.
 TEST_F(CheckpointsOfRender, WithSumsOfAnotherSizeIsRefused) {
     render("a", "--passes 2");

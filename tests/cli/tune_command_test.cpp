@@ -56,7 +56,8 @@ TEST_F(Tune, WhatItFindsIsUsedUntilReset) {
     EXPECT_EQ(sorting.exit_code, 0) << sorting.errors;
     EXPECT_NE(sorting.errors.find("nearlight tune"), std::string::npos) << sorting.errors;
 
-    EXPECT_EQ(tune("--device 0 --reset").exit_code, 0);
+    EXPECT_EQ(nlohmann::json::parse(tune("--device 0 --reset").output)["removed"], json["file"]);
+    EXPECT_EQ(nlohmann::json::parse(tune("--device 0 --reset").output)["removed"], nullptr);
     EXPECT_FALSE(std::filesystem::exists(json["file"].get<std::string>()));
 }
 

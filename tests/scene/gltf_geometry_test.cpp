@@ -72,6 +72,13 @@ TEST_F(GltfLoader, MorphTargetsHaveTheWeightsOfTheNodeOrTheMesh) {
     expect_close(corner(load(), 0, 2), {0, 1, 3});
 }
 
+TEST_F(GltfLoader, MorphTargetsOfColoursAreNoted) {
+    gltf_.primitive()["targets"] = {{{"COLOR_0", gltf_.points({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
+    EXPECT_FALSE(has_note(load(), "morph targets"));
+    gltf_.root["meshes"][0]["weights"] = {1};
+    EXPECT_TRUE(has_note(load(), "morph targets of COLOR_0 are left out"));
+}
+
 TEST_F(GltfLoader, InstancesStandBelowTheirNode) {
     const double half = std::sqrt(0.5);
     const auto h = static_cast<float>(half);

@@ -218,6 +218,28 @@ TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {
                  1e-3f);
 }
 
+TEST_F(GltfLook, TangentsThatDifferFromTheTextureCoordinatesAreNoted) {
+    add_texel({0.75f, 0.75f, 1, 1});
+    gltf_.material()["normalTexture"] = {{"index", 0}};
+    const auto is_noted = [&](const std::vector<float>& tangent) {
+        std::vector<float> tangents;
+        for (int vertex = 0; vertex < 4; ++vertex) {
+            tangents.insert(tangents.end(), tangent.begin(), tangent.end());
+        }
+        gltf_.primitive()["attributes"]["TANGENT"] = gltf_.accessor(tangents, 5126, "VEC4", 4);
+        return has_note(load(), "TANGENT differs");
+    };
+    EXPECT_FALSE(is_noted({1, 0, 0, 1}));
+    EXPECT_TRUE(is_noted({0, 1, 0, 1}));
+    EXPECT_TRUE(is_noted({1, 0, 0, -1}));
+    gltf_.primitive()["attributes"]["TEXCOORD_0"] =
+        gltf_.accessor(std::vector<float>{1, 1, 0, 1, 0, 0, 1, 0}, 5126, "VEC2", 2);
+    EXPECT_FALSE(is_noted({-1, 0, 0, -1})) << "mirrored";
+    gltf_.primitive()["attributes"]["TEXCOORD_0"] =
+        gltf_.accessor(std::vector<float>(8, 0.5f), 5126, "VEC2", 2);
+    EXPECT_FALSE(is_noted({0, 1, 0, 1})) << "these coordinates have no directions";
+}
+
 /// A square beside its mirror image: one mesh in two placements, of which the second one mirrors.
 TEST_F(GltfLook, PlacementsThatMirrorTurnNormalMapsOver) {
     add_texel({0.75f, 0.75f, 1, 1});

@@ -120,6 +120,9 @@ TEST_F(MitsubaBadInput, EnvironmentsAreTurnedAndNotSheared) {
     EXPECT_LT(turn(2, 2), 0) << "what mirrors goes on to mirror";
     turn_by("0 0 3 9  0 3 0 9  3 0 0 9  0 0 0 1");
     EXPECT_EQ(notes_on_line_2("shears"), 0u);
+    EXPECT_EQ(notes_on_line_2("the to_world of an environment scales"), 1u);
+    turn_by("0 0 1 9  0 1 0 9  -1 0 0 9  0 0 0 1");
+    EXPECT_EQ(notes_on_line_2("scales"), 0u);
 }
 
 TEST_F(MitsubaBadInput, WhatContainsItselfIsToldAndNeitherFollowedForEverNorOffTheStack) {

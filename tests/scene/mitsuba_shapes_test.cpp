@@ -222,9 +222,9 @@ TEST(MitsubaShape, FlatFacesOfCubesAndRectanglesStayOnTheirSide) {
 TEST(MitsubaShape, UnevenSpheresAreNoted) {
     const SceneFiles files;
     const Scene scene = files.load_xml(shape("sphere", to_world("<scale value='2,1,1'/>")));
-    EXPECT_TRUE(has_note(scene, "scales unevenly"));
+    EXPECT_TRUE(has_note(scene, "stretches it"));
     const Scene even = files.load_xml(shape("sphere", to_world("<scale value='2'/>")));
-    EXPECT_FALSE(has_note(even, "scales unevenly"));
+    EXPECT_FALSE(has_note(even, "stretches it"));
 }
 
 // Writes a picture that is red at the top left, green at the top right, blue at the bottom left and white at

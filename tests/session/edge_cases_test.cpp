@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "host/base/message.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
@@ -44,6 +45,27 @@ double indirect_mean(const Image& image) {
 }
 
 class EdgeCases : public test::DeviceTest {};
+
+TEST_F(EdgeCases, AWidthThatCostsLightIsToldOnce) {
+    on_each_device([](Device& device) {
+        Scene scene = niche();
+        const auto warnings = [&] {
+            int count = 0;
+            set_message_sink([&](MessageLevel level, std::string_view text) {
+                count += level == MessageLevel::warning && text.find("m wide") != std::string_view::npos;
+            });
+            Session session(device, scene);
+            for (uint seed = 0; seed < 3; ++seed) {
+                static_cast<void>(session.look({.width = 8, .height = 8}, seed));
+            }
+            set_message_sink({});
+            return count;
+        };
+        EXPECT_EQ(warnings(), 0);
+        add_quad(scene, {-5e4f, -2, -5e4f}, {0, 0, 1e5f}, {1e5f, 0, 0}, 0);
+        EXPECT_EQ(warnings(), 1);
+    });
+}
 
 /// A budget too small for a good picture is kept, and still gives the right picture on average.
 TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {

@@ -30,6 +30,12 @@ TEST(PassSettings, EveryPassHasARay) {
     EXPECT_EQ(pass.strata, 1000u);
 }
 
+TEST(PassSettings, QuickPicturesOfManyVplsAreNotRefused) {
+    RenderSettings whole;
+    whole.sampling.vpl_count = 600'000;
+    EXPECT_EQ(pass_gather(whole, StepKind::full).strata, 65'536u);
+}
+
 TEST(PassSettings, QuickPicturesAskLeast) {
     RenderSettings whole;
     whole.gather.compensate = false;

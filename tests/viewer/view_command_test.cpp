@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "host/cl/devices/device_list.h"
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
+#include "tests/image/temporary_folder.h"
 #include "tests/support/device_required.h"
 #include "tests/viewer/virtual_display.h"
 
@@ -37,6 +39,18 @@ TEST(ViewCommand, MistakesAreToldBeforeAWindowOpens) {
     expect_error(run_program("view " + kFloor + " --layer nosuch", kWithoutDisplay), 2, "beauty, direct");
     expect_error(run_program("view " + kFloor + " --range far", kWithoutDisplay), 2, "--range");
     expect_error(run_program("view " + kFloor + " --size 65536x65536", kWithoutDisplay), 6, "million");
+}
+
+TEST(ViewCommand, TheSizeOfTheSceneItselfIsLimitedToo) {
+    NEARLIGHT_NEEDS_DEVICE();
+    const TemporaryFolder folder;
+    std::ofstream(folder / "large.xml")
+        << "<scene version='3.0.0'><sensor type='perspective'><film type='hdrfilm'><integer name='width' "
+           "value='8192'/><integer name='height' value='8192'/></film></sensor><shape type='cube'/></scene>";
+    const ProgramResult result =
+        run_program("view --measure " + quoted(folder / "large.xml"), kWithoutDisplay);
+    EXPECT_EQ(result.exit_code, 6) << result.errors;
+    EXPECT_NE(result.errors.find("too many for a window"), std::string::npos) << result.errors;
 }
 
 /// Each of them would otherwise do nothing, or only after the picture is finished.

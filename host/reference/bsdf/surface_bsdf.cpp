@@ -9,18 +9,21 @@ namespace {
 // A part of a BSDF is drawn from with this probability at least, however dark it is estimated.
 constexpr double kMinPartChance = 0.1;
 
-/// The right-handed frame of the surface on its front; its x axis follows the texture coordinate u where
-/// there is one, and its y axis goes against v where (u, v) is mirrored, as in Mitsuba.
-BsdfFrame front_frame(const Surface& surface) {
-    const Vec3d n = normalize(as_double(surface.front_normal));
-    const Vec3d along_u = as_double(surface.along_u);
-    Vec3d s = along_u - n * dot(n, along_u);
-    if (length(s) <= 1e-9 * length(along_u) || is_zero(along_u)) {
-        s = as_double(orthonormal_basis(surface.front_normal)[0]);
+/// The right-handed frame about the unit vector n whose x axis is as near to `along` as can be.
+BsdfFrame frame_along(Vec3d n, Vec3d along) {
+    Vec3d s = along - n * dot(n, along);
+    if (length(s) <= 1e-9 * length(along) || is_zero(along)) {
+        s = as_double(orthonormal_basis(as_float(n))[0]);
         s = s - n * dot(n, s);
     }
     s = normalize(s);
     return {s, cross(n, s), n};
+}
+
+/// The frame of the surface on its front; its x axis follows the texture coordinate u where there is one, and
+/// its y axis goes against v where (u, v) is mirrored, as in Mitsuba.
+BsdfFrame front_frame(const Surface& surface) {
+    return frame_along(normalize(as_double(surface.front_normal)), as_double(surface.along_u));
 }
 
 /// The squared tangent of the angle to the axis whose cosine is given.
@@ -93,15 +96,9 @@ void SurfaceBsdf::turn_normal(Vec3d local, Vec3d along, Vec3d wo) {
     if (view.z * dot(view, local) <= 0) {
         local = {-local.x, -local.y, local.z};
     }
-    Vec3d s = along - local * dot(local, along);
-    if (length(s) <= 1e-9 * length(along) || is_zero(along)) {
-        s = as_double(orthonormal_basis(as_float(local))[0]);
-        s = s - local * dot(local, s);
-    }
-    s = normalize(s);
-    const Vec3d t = cross(local, s);
+    const auto [s, t, n] = frame_along(local, along);
     turns_[turn_count_++] = {frame_.n, frame_.to_world(local), std::min(1.0, 0.125 * tangent2(local.z))};
-    frame_ = {frame_.to_world(s), frame_.to_world(t), frame_.to_world(local)};
+    frame_ = {frame_.to_world(s), frame_.to_world(t), frame_.to_world(n)};
 }
 
 void SurfaceBsdf::choose_parts() {

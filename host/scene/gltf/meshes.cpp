@@ -71,20 +71,21 @@ bool is_mirrored(const Mesh& mesh, const std::array<uint, 3>& t) {
     return (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Whether TANGENT, which is not read, differs from the directions of u of many triangles. It has four
-/// numbers a vertex.
+/// Whether TANGENT, which is not read, differs from the directions of u and v of many triangles. It has four
+/// numbers a vertex; the last is the side on which v grows.
 bool has_other_tangents(const Mesh& mesh, std::span<const float> tangents) {
     constexpr float kMinCosine = 0.5f;
     constexpr std::size_t kMaxShare = 20;  // one triangle in so many may differ, as at seams and poles
     std::size_t others = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
+        const float side = is_mirrored(mesh, {a, b, c}) ? -1.0f : 1.0f;
         const float v1 = mesh.uvs[b][1] - mesh.uvs[a][1];
         const float v2 = mesh.uvs[c][1] - mesh.uvs[a][1];
-        const float turn = is_mirrored(mesh, {a, b, c}) ? -1.0f : 1.0f;
-        const Vec3 along_u = normalize((mesh.positions[b] - mesh.positions[a]) * (turn * v2) -
-                                       (mesh.positions[c] - mesh.positions[a]) * (turn * v1));
+        const Vec3 along_u = normalize(side * ((mesh.positions[b] - mesh.positions[a]) * v2 -
+                                               (mesh.positions[c] - mesh.positions[a]) * v1));
         const Vec3 tangent{tangents[4 * a], tangents[4 * a + 1], tangents[4 * a + 2]};
-        others += dot(along_u, tangent) < kMinCosine ? 1 : 0;
+        const bool differs = dot(along_u, tangent) < kMinCosine || side * tangents[4 * a + 3] < 0.0f;
+        others += !is_zero(along_u) && differs ? 1 : 0;
     }
     return others * kMaxShare > mesh.triangles.size();
 }

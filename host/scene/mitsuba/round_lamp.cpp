@@ -28,11 +28,16 @@ double round_radius(const Mat4& m) {
 
 }  // namespace
 
+bool is_round_sphere(const Mat4& to_world) {
+    const double radius = round_radius(to_world);
+    return radius > 0.0 &&
+           std::abs(std::sqrt(dot_of_columns(to_world, 2, 2)) - radius) <= kRoundness * radius;
+}
+
 std::optional<RoundLamp> round_lamp(const Scene& scene, const std::string& type, const Mat4& to_world,
                                     std::size_t first_triangle) {
     const double radius = round_radius(to_world);
-    const double height = std::sqrt(dot_of_columns(to_world, 2, 2));
-    const bool is_sphere = type == "sphere" && std::abs(height - radius) <= kRoundness * radius;
+    const bool is_sphere = type == "sphere" && is_round_sphere(to_world);
     if (!(radius > 0.0) || (!is_sphere && type != "cylinder")) {
         return std::nullopt;
     }

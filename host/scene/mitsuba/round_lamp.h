@@ -9,6 +9,9 @@
 
 namespace nearlight::core::mitsuba {
 
+/// Whether the transform leaves a sphere round.
+bool is_round_sphere(const Mat4& to_world);
+
 /// The light that a shape of this type is if it shines evenly and outwards: a sphere or cylinder that its
 /// placement leaves round. `to_world` places the mesh of shape_mesh.h, whose triangles are those of the scene
 /// from first_triangle on.

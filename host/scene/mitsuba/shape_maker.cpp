@@ -2,8 +2,6 @@
 #include "host/scene/mitsuba/shape_maker.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <span>
 
 #include "host/scene/material_model.h"
@@ -52,21 +50,6 @@ Mat4 local_placement(const Object& shape) {
                                       : Mat4{};
 }
 
-/// Whether anything of these materials is looked up by texture coordinates.
-bool has_textures(const Scene& scene, std::span<const uint> materials, int depth = 0) {
-    const auto is_placed = [&](const Parameter& parameter) {
-        return parameter.texture >= 0 &&
-               scene.textures[static_cast<std::size_t>(parameter.texture)].parameters.kind !=
-                   NEARLIGHT_TEXTURE_VERTEX_COLOR;
-    };
-    return depth <= NEARLIGHT_MAX_BSDF_NESTING && std::ranges::any_of(materials, [&](uint index) {
-               const Material& material = scene.materials[index];
-               const std::span parameters(&material.reflectance, NEARLIGHT_PARAMETER_COUNT);
-               return std::ranges::any_of(parameters, is_placed) ||
-                      has_textures(scene, children(material), depth + 1);
-           });
-}
-
 bool is_mesh_file(const Object& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
 }
@@ -78,20 +61,10 @@ bool turns_inside_out(const Object& shape, bool has_own_normals, const Mat4& own
            (is_mesh_file(shape) && !has_own_normals && linear_determinant(by_instance) < 0.0);
 }
 
-// Mitsuba makes a sphere of the radius that the x axis gets. The ellipsoid that the transform asks for is
-// made here.
-void note_uneven_sphere(const Object& shape, const Mat4& to_world, NoteSink& notes) {
-    constexpr double kMaxUnevenness = 1e-3;
-    std::array<double, 3> radii{};
-    for (int column = 0; column < 3; ++column) {
-        radii.at(static_cast<std::size_t>(column)) =
-            std::hypot(to_world(0, column), to_world(1, column), to_world(2, column));
-    }
-    const auto [least, most] = std::ranges::minmax(radii);
-    if (shape.type == "sphere" && most - least > kMaxUnevenness * most) {
-        note(notes, shape.where,
-             "the to_world of a sphere scales unevenly; it is an ellipsoid, but a sphere in Mitsuba");
-    }
+/// Whether anything of these materials is looked up by texture coordinates.
+bool have_placed_textures(const Scene& scene, std::span<const uint> materials) {
+    return std::ranges::any_of(
+        materials, [&](uint index) { return has_placed_textures(scene, scene.materials[index]); });
 }
 
 }  // namespace
@@ -233,16 +206,20 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
     const bool has_own_normals = !mesh.normals.empty() && !face_normals;
     const bool flips =
         shape.boolean("flip_normals", false) != turns_inside_out(shape, has_own_normals, own, by_instance);
-    note_uneven_sphere(shape, to_world, notes_);
+    if (shape.type == "sphere" && !is_round_sphere(to_world)) {
+        note(notes_, shape.where,
+             "the to_world of a sphere stretches it; it is an ellipsoid, but a sphere in Mitsuba");
+    }
     const std::size_t first_triangle = scene_.triangles.size();
     begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));
-    append_mesh(scene_, mesh,
-                {.to_world = to_world,
-                 .materials = materials,
-                 .face_normals = face_normals,
-                 .flip_normals = flips,
-                 .corner_uvs = mesh.uvs.empty() && is_mesh_file(shape) && has_textures(scene_, materials)},
-                notes_);
+    append_mesh(
+        scene_, mesh,
+        {.to_world = to_world,
+         .materials = materials,
+         .face_normals = face_normals,
+         .flip_normals = flips,
+         .corner_uvs = mesh.uvs.empty() && is_mesh_file(shape) && have_placed_textures(scene_, materials)},
+        notes_);
     const bool is_even = emitted.texture < 0 && !is_zero(emitted.value);
     const bool is_whole = scene_.triangles.size() - first_triangle == mesh.triangles.size();
     if (is_even && is_whole && !flips) {
