@@ -58,6 +58,18 @@ void check_variance_is_known(const PictureOptions& picture, const RenderSettings
     }
 }
 
+void warn_of_unsplatted_passes(const RenderSettings& settings) {
+    const uint fewest = min_later_samples(settings.gather);
+    const auto lacks_splats = [&](uint samples) { return samples < fewest; };
+    if (settings.pass_samples.size() > 1 && std::ranges::any_of(settings.pass_samples, lacks_splats) &&
+        !std::ranges::all_of(settings.pass_samples, lacks_splats)) {
+        spdlog::warn(
+            "--pass-spp has passes of fewer than {} samples, which are noisier than their weight says if the "
+            "pixel filter is wider than a pixel",
+            fewest);
+    }
+}
+
 void warn_of_unknown_variance(const PictureOptions& picture, std::span<const uint> samples) {
     if (has_variance(picture) && !tells_error(samples)) {
         spdlog::warn("the layer variance is 0 and says nothing: the picture has one sample per pixel");

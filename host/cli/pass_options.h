@@ -26,6 +26,9 @@ void add_pass_options(CLI::App& command, PassOptions& options);
 void check_variance_is_known(const PictureOptions& picture, const RenderSettings& settings);
 /// Warns if the layer `variance` is asked for and passes of these samples per pixel do not tell it.
 void warn_of_unknown_variance(const PictureOptions& picture, std::span<const uint> samples);
+/// Warns if some passes of --pass-spp have so few samples per pixel that they have no splats, and others
+/// have.
+void warn_of_unsplatted_passes(const RenderSettings& settings);
 
 /// Logs after a pass how long the way to the error is.
 void tell_forecast(const PassForecast& forecast, double target);

@@ -107,6 +107,7 @@ RenderOptions with_splats_of_checkpoint(RenderOptions options) {
 ExitCode run_render(const RenderOptions& asked, const GlobalOptions& global) {
     const RenderOptions options = with_splats_of_checkpoint(asked);
     check_variance_is_known(options.picture, settled(options));
+    warn_of_unsplatted_passes(settled(options));
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {
         limit_driver_threads(options.threads);

@@ -44,6 +44,7 @@ PassSchedule::PassSchedule(const RenderSettings& settings)
     : list_(settings.pass_samples),
       full_samples_(settings.gather.samples_per_pixel),
       min_samples_(min_pass_samples(settings.gather)),
+      min_later_samples_(min_later_samples(settings.gather)),
       max_passes_(max_passes_of(settings)),
       seconds_(settings.seconds),
       target_(settings.error) {}
@@ -79,10 +80,10 @@ uint PassSchedule::next_samples() const {
     double samples = list_.empty() ? full_samples_ : list_[samples_.size()];
     if (error_ && target_) {
         const double missing = std::ceil(kErrorReserve * (needed_samples() - done_samples_));
-        const double short_pass = std::max(kMinErrorPart * full_samples_, 1.0 * min_samples_);
+        const double short_pass = std::max(kMinErrorPart * full_samples_, 1.0 * min_later_samples_);
         samples = std::clamp(missing, std::min(short_pass, samples), samples);
     }
-    const double fewest = std::min<double>(samples, min_samples_);
+    const double fewest = std::min<double>(samples, samples_.empty() ? min_samples_ : min_later_samples_);
     samples = std::min(samples, fitting_samples());
     if (samples_.empty()) {
         samples = std::max(samples, fewest);

@@ -90,7 +90,8 @@ class PassSchedule {
 
     std::vector<uint> list_;  ///< samples of each pass; empty: as the limits allow
     uint full_samples_;
-    uint min_samples_;
+    uint min_samples_;        ///< of the first pass
+    uint min_later_samples_;  ///< of each pass after it
     uint max_passes_;
     std::optional<double> seconds_;
     std::optional<double> target_;

@@ -8,6 +8,7 @@
 
 #include "host/base/division.h"
 #include "host/base/limits.h"
+#include "host/session/splat_rows.h"
 
 namespace nearlight::core {
 namespace {
@@ -38,6 +39,11 @@ uint pass_seed(uint seed, uint pass) {
 
 uint min_pass_samples(const GatherSettings& settings) {
     return std::min(settings.samples_per_pixel, 2u);
+}
+
+uint min_later_samples(const GatherSettings& settings) {
+    return settings.splat ? std::min(settings.samples_per_pixel, kMinSplattedSamples)
+                          : min_pass_samples(settings);
 }
 
 RenderSettings with_samples(RenderSettings settings, uint samples) {

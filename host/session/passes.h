@@ -20,9 +20,13 @@ bool tells_error(std::span<const uint> samples);
 /// `pass`, so that pictures of neighbouring seeds share no pass.
 uint pass_seed(uint seed, uint pass);
 
-/// The fewest samples per pixel that a pass may have: 2, because a single sample says nothing about its
-/// error, or 1 if all passes of the picture are such.
+/// The fewest samples per pixel that the first pass may have: 2, because a single sample says nothing about
+/// its error, or 1 if all passes of the picture are such.
 uint min_pass_samples(const GatherSettings& settings);
+
+/// The fewest samples per pixel that a pass after the first may have: as many as splats need, if the picture
+/// has splats. Samples that count in their own pixel alone are noisier, but would weigh as much.
+uint min_later_samples(const GatherSettings& settings);
 
 /// The settings of a pass of `samples` per pixel, which may be more or fewer than the settings say. All that
 /// a pixel gets changes in proportion: VPLs, their strata, light samples and rays; so each sample stays what

@@ -153,6 +153,13 @@ TEST_F(PassOptionsOfRender, VarianceOfASingleSampleIsRefusedOrWarnedOf) {
     EXPECT_FALSE(says(render("--layers variance --pass-spp 1,1"), "says nothing"));
 }
 
+TEST_F(PassOptionsOfRender, PassesWithoutSplatsAreToldOf) {
+    constexpr const char* kWarning = "--pass-spp has passes of fewer than 4 samples";
+    EXPECT_TRUE(says(render("--pass-spp 4,2"), kWarning));
+    EXPECT_FALSE(says(render("--pass-spp 2,2"), kWarning)) << "all are alike";
+    EXPECT_FALSE(says(render("--splat off --pass-spp 4,2"), kWarning));
+}
+
 TEST_F(PassOptionsOfRender, VplsOfAFileAreRefusedBeforeTheSceneIsRead) {
     for (const char* passes : {"--passes 2", "--time 1", "--error 0.1", "--pass-spp 4,4"}) {
         const ProgramResult result =

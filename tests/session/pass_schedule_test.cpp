@@ -107,6 +107,28 @@ TEST(PassSchedule, PlansByThePaceOfThePassesBefore) {
     EXPECT_EQ(schedule.begin(), 6u) << "800 s are left for samples, and one is kept in reserve";
 }
 
+TEST(PassSchedule, GivesLaterPassesTheSamplesThatSplatsNeed) {
+    RenderSettings settings;
+    settings.seconds = 1000.0;
+    const auto next = [&] {
+        PassSchedule schedule(settings);
+        schedule.resume({16}, std::nullopt, {.sample_seconds = 170.0, .vpl_seconds = 200.0}, 0, 0.0);
+        return schedule.begin();
+    };
+    EXPECT_FALSE(next()) << "three samples fit in the time";
+    settings.gather.splat = false;
+    EXPECT_EQ(next(), 3u);
+}
+
+TEST(PassSchedule, EndsAtAnErrorWithTheSamplesThatSplatsNeed) {
+    RenderSettings settings;
+    settings.gather.samples_per_pixel = 8;
+    settings.error = 0.03;
+    PassSchedule schedule(settings);
+    schedule.resume({8, 8, 8}, 0.0301, {}, 0, 0.0);
+    EXPECT_EQ(schedule.begin(), 4u) << "one sample seems to be missing";
+}
+
 /// Of a walk's pictures, the first pass may have its VPLs from the picture before, and the second seldom has.
 TEST(PassSchedule, CountsOnVplsThatAreNotKept) {
     RenderSettings settings;
