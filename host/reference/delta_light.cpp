@@ -14,24 +14,24 @@ double dot_double(Vec3 a, Vec3 b) {
 }
 
 /// A place in the frame of a light that sends an image.
-struct ImagePlace {
+struct PointOnImage {
     double s, t;
     double depth;  ///< along the axis, m
 
-    ImagePlace(const Emitter& emitter, Vec3 from_light)
+    PointOnImage(const Emitter& emitter, Vec3 from_light)
         : s(0.5 + dot_double(from_light, emitter.x_axis) / dot_double(from_light, emitter.direction)),
           t(0.5 + dot_double(from_light, emitter.y_axis) / dot_double(from_light, emitter.direction)),
           depth(dot_double(from_light, emitter.direction)) {}
 };
 
-Vec3 image_color(const Scene& scene, const Emitter& emitter, const ImagePlace& place) {
+Vec3 image_color(const Scene& scene, const Emitter& emitter, const PointOnImage& place) {
     return emitter.image == 0 ? Vec3{1, 1, 1}
                               : texture_color(scene, scene.textures[emitter.image - 1],
                                               static_cast<float>(place.s), static_cast<float>(1 - place.t));
 }
 
 Vec3 spot_irradiance(const Scene& scene, const Emitter& emitter, Vec3 from_light, double distance) {
-    const ImagePlace place(emitter, from_light);
+    const PointOnImage place(emitter, from_light);
     const double angle = std::acos(std::clamp(place.depth / distance, -1.0, 1.0));
     if (angle >= emitter.cutoff_angle) {
         return {0, 0, 0};
@@ -46,7 +46,7 @@ Vec3 spot_irradiance(const Scene& scene, const Emitter& emitter, Vec3 from_light
 /// A plane across the axis at the depth z receives radiance/z², and an area across the direction to it more
 /// by the inverse of the cosine.
 Vec3 projector_irradiance(const Scene& scene, const Emitter& emitter, Vec3 from_light, double distance) {
-    const ImagePlace place(emitter, from_light);
+    const PointOnImage place(emitter, from_light);
     if (!(place.depth > 0.0) || std::min(place.s, place.t) < 0.0 || std::max(place.s, place.t) > 1.0) {
         return {0, 0, 0};
     }
