@@ -57,4 +57,27 @@ std::string printable_line(std::string_view text) {
     return line;
 }
 
+std::string utf8_or_latin1(std::string text) {
+    std::string_view rest = text;
+    std::size_t size = 1;
+    while (!rest.empty() && size > 0) {
+        size = static_cast<unsigned char>(rest.front()) < 0x80 ? 1 : character_size(rest);
+        rest.remove_prefix(size);
+    }
+    if (rest.empty()) {
+        return text;
+    }
+    std::string converted;
+    for (const char c : text) {
+        const unsigned code = static_cast<unsigned char>(c);
+        if (code < 0x80) {
+            converted += c;
+        } else {
+            converted += static_cast<char>(0xc0u | code >> 6u);
+            converted += static_cast<char>(0x80u | (code & 0x3fu));
+        }
+    }
+    return converted;
+}
+
 }  // namespace nearlight::core

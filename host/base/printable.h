@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text from files and from the command line, on its way to a terminal.
+// Text from files and from the command line, on its way to a terminal or to other files.
 #pragma once
 
 #include <string>
@@ -13,5 +13,8 @@ std::string printable(std::string_view text);
 
 /// The same as one line, which is cut where it is longer than anybody would read.
 std::string printable_line(std::string_view text);
+
+/// The text if it is UTF-8, and else the characters that its bytes are in Latin-1.
+std::string utf8_or_latin1(std::string text);
 
 }  // namespace nearlight::core

@@ -2,14 +2,23 @@
 #include "host/scene/scene_names.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "host/base/printable.h"
 
 namespace nearlight::core {
+
+void begin_object(Scene& scene, std::string name) {
+    scene.objects.push_back(
+        {static_cast<uint>(scene.triangles.size()), static_cast<uint>(scene.object_names.size())});
+    scene.object_names.push_back(utf8_or_latin1(std::move(name)));
+}
 
 void name_material(Scene& scene, uint material, std::string name) {
     if (scene.material_names.size() <= material) {
         scene.material_names.resize(material + 1);
     }
-    scene.material_names[material] = std::move(name);
+    scene.material_names[material] = utf8_or_latin1(std::move(name));
 }
 
 std::string name_or_number(const std::string& name, std::string_view what, std::size_t number) {

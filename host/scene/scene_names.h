@@ -4,7 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -14,14 +13,11 @@ namespace nearlight::core {
 /// What surfaces are called whose file has no name for their object or material.
 inline constexpr std::string_view kNoName = "default";
 
-/// Triangles that are added to the scene from now on belong to an object of this name.
-inline void begin_object(Scene& scene, std::string name) {
-    scene.objects.push_back(
-        {static_cast<uint>(scene.triangles.size()), static_cast<uint>(scene.object_names.size())});
-    scene.object_names.push_back(std::move(name));
-}
+/// Triangles that are added to the scene from now on belong to an object of this name. A name that is not
+/// UTF-8 is taken for Latin-1, because mattes list names in JSON.
+void begin_object(Scene& scene, std::string name);
 
-/// Names a material of the scene.
+/// Names a material of the scene. A name that is not UTF-8 is taken for Latin-1.
 void name_material(Scene& scene, uint material, std::string name);
 
 /// The name of something that the file may have a name for, or else what it is and its number, counted

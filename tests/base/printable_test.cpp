@@ -34,5 +34,14 @@ TEST(Printable, LinesAreOneLineAndNotEndless) {
     EXPECT_LT(printable_line(std::string(1'000'000, 'x')).size(), 6000u);
 }
 
+TEST(Printable, WhatIsNotUtf8IsLatin1) {
+    for (const char* text : {"", "plain", "B\u00e4r", "日本 😀"}) {
+        EXPECT_EQ(utf8_or_latin1(text), text);
+    }
+    EXPECT_EQ(utf8_or_latin1("B\xe4r"), "B\u00e4r");
+    EXPECT_EQ(utf8_or_latin1("\u00e4 B\xfcr"), "\u00c3\u00a4 B\u00fcr");
+    EXPECT_EQ(utf8_or_latin1("cut \xe6\x97"), "cut \u00e6\u0097");
+}
+
 }  // namespace
 }  // namespace nearlight::core

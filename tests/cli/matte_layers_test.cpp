@@ -7,6 +7,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "host/scene/scene_names.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/small_scene.h"
 #include "tests/support/device_required.h"
@@ -47,6 +48,24 @@ TEST_F(MatteLayers, AreOnlyInExrFilesThatAskForThem) {
     ASSERT_EQ(render("", output_).exit_code, 0);
     EXPECT_EQ(attributes(output_), 0u);
     EXPECT_EQ(read_image(output_).find_channel("CryptoObject00.R"), -1);
+}
+
+TEST(MatteAttributes, NamesInLatin1StayApart) {
+    Scene scene;
+    for (const char* name : {"B\xe4r", "B\xfcr"}) {
+        begin_object(scene, name);
+        scene.triangles.emplace_back();
+    }
+    Metadata metadata;
+    add_matte_attributes(matte_layers(std::vector<std::string>{"cryptomatte_object"}), scene, metadata);
+    for (const auto& [name, value] : metadata) {
+        if (name.ends_with("manifest")) {
+            const auto manifest = nlohmann::json::parse(std::get<std::string>(value));
+            EXPECT_EQ(manifest.size(), 2u) << manifest;
+            EXPECT_TRUE(manifest.contains("B\u00e4r")) << manifest;
+        }
+    }
+    EXPECT_EQ(metadata.size(), 4u);
 }
 
 TEST_F(MatteLayers, SurviveNoLossyCompression) {
