@@ -224,7 +224,9 @@ Metadata camera_metadata(const SceneCamera& camera) {
         camera.kind == CameraKind::orthographic
             ? Mat4{{-1 / x, 0, 0, -window.left / x, 0, -1 / y, 0, -window.top / y, 0, 0, 1, 0, 0, 0, 0, 1}}
             : Mat4{{-1 / x, 0, -window.left / x, 0, 0, -1 / y, -window.top / y, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
-    return {{"worldToCamera", transposed(world_to_camera)},
+    // OpenEXR's camera space is left-handed, with +X to the right.
+    constexpr Mat4 kMirrorX{{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    return {{"worldToCamera", transposed(kMirrorX * world_to_camera)},
             {"worldToNDC", transposed(projection * world_to_camera)}};
 }
 
