@@ -118,8 +118,8 @@ void write_meanings(HtmlWriter& html) {
                "as bright walls. The reference's noise is subtracted here too.");
     write_pair(
         html, "mean ratio",
-        "All light in the picture ÷ all light in the reference. Without bias, 19 of 20 intervals contain 1; "
-        "intervals that stay below 1 mean that light is lost.");
+        "All light in the picture ÷ all light in the reference. Without bias, 19 of 20 intervals contain 1, "
+        "as far as the reference is exact; intervals that stay below 1 mean that light is lost.");
     write_pair(html, "FLIP",
                "How different the two pictures look when one flips between them, from 0 to 1, at 67 pixels "
                "per degree of visual angle, both with the same exposure. Lower is better.");

@@ -3,11 +3,22 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nearlight::core {
+
+/// The place of a picture that is a part of a larger one.
+struct ImagePlace {
+    int x = 0;  ///< of the leftmost pixel
+    int y = 0;  ///< of the topmost pixel
+    int whole_width = 0;
+    int whole_height = 0;
+
+    friend bool operator==(const ImagePlace&, const ImagePlace&) = default;
+};
 
 /// An image with interleaved channels, top row first. Channel names follow OpenEXR: "R", "indirect.R",
 /// "depth.Z".
@@ -15,8 +26,9 @@ struct Image {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;
-    std::vector<float> values;  ///< width·height·channels.size()
-    bool holds_floats = false;  ///< the file that it was read from has floats, not whole numbers
+    std::vector<float> values;          ///< width·height·channels.size()
+    bool holds_floats = false;          ///< the file that it was read from has floats, not whole numbers
+    std::optional<ImagePlace> place{};  ///< if the file that it was read from says that it is a part
 
     [[nodiscard]] std::size_t channel_count() const { return channels.size(); }
     [[nodiscard]] std::size_t pixel_count() const {
@@ -34,6 +46,9 @@ struct Image {
     /// Index of the channel called `name`, or -1.
     [[nodiscard]] int find_channel(std::string_view name) const;
 };
+
+/// The part of an image at a place in it, which must lie inside.
+Image part_of(const Image& image, const ImagePlace& place, int width, int height);
 
 /// An image of zeros.
 Image make_image(int width, int height, std::vector<std::string> channels);

@@ -44,17 +44,11 @@ class ImageEncoder {
     virtual std::string close() = 0;
 };
 
-/// The pixels of a file, and whether colours are sRGB-encoded.
-struct DecodedImage {
-    Image image;
-    bool is_srgb = false;
-};
-
 /// The functions that the module exports as `nearlight_image_codec`. They throw the errors that image_io.h
 /// names.
 struct ImageCodec {
     /// Reads `bytes`, the content of a file in memory, or `file` itself if `bytes` is empty.
-    DecodedImage (*read)(const std::filesystem::path& file, std::span<const std::byte> bytes);
+    Image (*read)(const std::filesystem::path& file, std::span<const std::byte> bytes);
     Metadata (*read_metadata)(const std::filesystem::path& file);
     std::unique_ptr<ImageEncoder> (*make_encoder)(const EncodingTask& task);
 };

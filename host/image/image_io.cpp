@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Colour channels of integer files are sRGB-encoded, unless the file says otherwise.
+/// Colour channels of files of integers are sRGB-encoded. What a file says of its gamma counts for nothing,
+/// as in Mitsuba.
 void linearize(Image& image) {
     for (std::size_t channel = 0; channel < image.channel_count(); ++channel) {
         if (image.channels[channel] == "A") {
@@ -46,11 +47,11 @@ void check_readable(const fs::path& file) {
 Image read(const fs::path& file, bool decode_srgb) {
     check_readable(file);
     std::optional<Image> plain = read_pnm(file);
-    DecodedImage decoded = plain ? DecodedImage{std::move(*plain), true} : image_codec().read(file, {});
-    if (decode_srgb && decoded.is_srgb) {
-        linearize(decoded.image);
+    Image image = plain ? std::move(*plain) : image_codec().read(file, {});
+    if (decode_srgb && !image.holds_floats) {
+        linearize(image);
     }
-    return std::move(decoded.image);
+    return image;
 }
 
 ImageFormat format_of(const fs::path& file) {
@@ -76,7 +77,7 @@ Image read_image(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.empty()) {
         fail_image("cannot read image", name, "it is empty");
     }
-    return image_codec().read(name, bytes).image;
+    return image_codec().read(name, bytes);
 }
 
 Image read_linear_image(const fs::path& file) {

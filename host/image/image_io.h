@@ -47,14 +47,6 @@ inline constexpr std::array kExrCompressions{
     std::pair{"none", ExrCompression::none}, std::pair{"zip", ExrCompression::zip},
     std::pair{"piz", ExrCompression::piz}, std::pair{"dwaa", ExrCompression::dwaa}};
 
-/// The place of a picture that is a part of a larger one.
-struct ImagePlace {
-    int x = 0;  ///< of the leftmost pixel
-    int y = 0;  ///< of the topmost pixel
-    int whole_width = 0;
-    int whole_height = 0;
-};
-
 struct ImageWriterOptions {
     /// EXR attributes, where a vector of 16 floats becomes a matrix; PNG keeps those that are strings.
     Metadata metadata{};

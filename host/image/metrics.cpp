@@ -19,14 +19,15 @@ std::string channel_name(const std::string& layer, char component) {
     return layer.empty() ? std::string(1, component) : layer + "." + component;
 }
 
-/// The channels of a layer: red, green and blue, or what else the picture has under this name.
+/// The channels of a layer: red, green and blue, or what else the picture has under this name, such as A.
 std::vector<std::string> layer_channels(const Image& image, const std::string& layer) {
     const std::vector<std::string> colors{channel_name(layer, 'R'), channel_name(layer, 'G'),
                                           channel_name(layer, 'B')};
     std::vector<std::string> others;
     for (const std::string& channel : image.channels) {
-        if (!layer.empty() && channel.starts_with(layer + ".") &&
-            channel.find('.', layer.size() + 1) == std::string::npos) {
+        if (!layer.empty() &&
+            (channel == layer || (channel.starts_with(layer + ".") &&
+                                  channel.find('.', layer.size() + 1) == std::string::npos))) {
             others.push_back(channel);
         }
     }
@@ -96,14 +97,22 @@ double ratio(double numerator, double denominator) {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// The FLIP error of each pixel of pictures that are shown with their values multiplied by `scale`.
+std::vector<float> flip_of(const Image& a, Pair pair, float scale) {
+    for (std::vector<Vec3>* const pixels : {&pair.a, &pair.b}) {
+        std::ranges::transform(*pixels, pixels->begin(), [scale](Vec3 color) { return color * scale; });
+    }
+    return flip_error(a.width, a.height, pair.a, pair.b);
+}
+
 /// The mean FLIP error of the pixels that can be compared.
-double mean_flip(const Image& a, const Pair& pair) {
-    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+double mean_flip(const Image& a, const Pair& pair, float scale) {
+    const std::vector<float> flip = flip_of(a, pair, scale);
     double sum = 0.0;
     for (std::size_t i = 0; i < flip.size(); ++i) {
         sum += pair.usable[i] ? static_cast<double>(flip[i]) : 0.0;
     }
-    return sum / std::max(1.0, static_cast<double>(pair.usable_count));
+    return sum / static_cast<double>(pair.usable_count);
 }
 
 /// The colour (sRGB) of an error from 0 to 1: dark violet through red to pale yellow, in equal steps of
@@ -141,10 +150,14 @@ std::vector<std::string> color_layers(const Image& image) {
     return layers;
 }
 
-ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer) {
+ImageDifference compare_images(const Image& a, const Image& b, const std::string& layer, float scale) {
     const Pair pair = pair_of(a, b, layer);
     ImageDifference result;
     result.non_finite = pair.a.size() - pair.usable_count;
+    if (pair.usable_count == 0) {
+        result.rmse = result.relative_mse = result.mean_ratio = result.flip = kNone;
+        return result;
+    }
     double luminance_a = 0.0;
     double luminance_b = 0.0;
     for (std::size_t i = 0; i < pair.a.size(); ++i) {
@@ -161,23 +174,23 @@ ImageDifference compare_images(const Image& a, const Image& b, const std::string
         luminance_a += luminance_of(pair.a[i]);
         luminance_b += luminance_of(pair.b[i]);
     }
-    const double count = std::max(1.0, static_cast<double>(pair.usable_count * pair.channel_count));
+    const auto count = static_cast<double>(pair.usable_count * pair.channel_count);
     result.rmse = std::sqrt(result.rmse / count);
     result.relative_mse /= count;
     const bool is_color = has_color_layer(a, layer);
     result.mean_ratio = is_color || pair.channel_count == 1 ? ratio(luminance_a, luminance_b) : kNone;
-    result.flip = is_color ? mean_flip(a, pair) : kNone;
+    result.flip = is_color ? mean_flip(a, pair, scale) : kNone;
     return result;
 }
 
-Image flip_map(const Image& a, const Image& b, const std::string& layer) {
+Image flip_map(const Image& a, const Image& b, const std::string& layer, float scale) {
     const Pair pair = pair_of(a, b, layer);
     if (!has_color_layer(a, layer)) {
         throw Error(ErrorKind::file, "layer '" + layer +
                                          "' is not one of colours, so that FLIP has no map of it; name one "
                                          "that has the channels R, G and B first");
     }
-    const std::vector<float> flip = flip_error(a.width, a.height, pair.a, pair.b);
+    const std::vector<float> flip = flip_of(a, pair, scale);
     Image map = make_image(a.width, a.height, {"R", "G", "B"});
     for (std::size_t i = 0; i < flip.size(); ++i) {
         const Vec3 color = map_color(flip[i]);

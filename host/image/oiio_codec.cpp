@@ -193,8 +193,15 @@ bool read_pixels(OIIO::ImageInput& input, std::vector<float>& values) {
     return true;
 }
 
-DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
-    if (std::optional<DecodedImage> webp = decode_webp(file, bytes)) {
+/// What the data window is of the display window, if they differ.
+std::optional<ImagePlace> place_of(const OIIO::ImageSpec& spec) {
+    const ImagePlace place{spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height};
+    const ImagePlace all{0, 0, spec.width, spec.height};
+    return place == all ? std::nullopt : std::optional(place);
+}
+
+Image decode(const fs::path& file, std::span<const std::byte> bytes) {
+    if (std::optional<Image> webp = decode_webp(file, bytes)) {
         return std::move(*webp);
     }
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
@@ -211,12 +218,12 @@ DecodedImage decode(const fs::path& file, std::span<const std::byte> bytes) {
                 .height = spec.height,
                 .channels = spec.channelnames,
                 .values = {},
-                .holds_floats = spec.format.is_floating_point()};
+                .holds_floats = spec.format.is_floating_point(),
+                .place = place_of(spec)};
     if (!read_pixels(*input, image.values) || input->has_error()) {
         fail_image("cannot read image", file, input->geterror());
     }
-    const bool is_srgb = !image.holds_floats && spec.get_string_attribute("oiio:ColorSpace") != "Linear";
-    return {std::move(image), is_srgb};
+    return image;
 }
 
 Metadata decode_metadata(const fs::path& file) {

@@ -58,7 +58,9 @@ Vec3 times(const std::array<std::array<double, 3>, 3>& m, Vec3 c) {
     return {row(m[0]), row(m[1]), row(m[2])};
 }
 
-/// https://github.com/sobotka/AgX describes the transform; the matrices are those of its sRGB version.
+/// AgX [Sobotka, https://github.com/sobotka/AgX], whose inset for sRGB this is. The curve and the way back by
+/// the inverse of the inset are those of its later version, on which Blender's builds
+/// [https://github.com/EaryChow/AgX].
 Vec3 agx(Vec3 color) {
     constexpr std::array<std::array<double, 3>, 3> kInset{
         {{0.842479062253094, 0.0784335999999992, 0.0792237451477643},

@@ -38,7 +38,7 @@ struct WebPDeleter {
 
 }  // namespace
 
-std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+std::optional<Image> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes) {
     const std::string from_file = bytes.empty() ? webp_in(file) : std::string();
     const auto content = bytes.empty() ? std::as_bytes(std::span(from_file)) : bytes;
     if (!is_webp(content)) {
@@ -70,7 +70,7 @@ std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::
     for (std::size_t i = 0; i < count; ++i) {
         image.values.push_back(static_cast<float>(codes.get()[i]) * (1.0f / 255.0f));
     }
-    return DecodedImage{std::move(image), true};
+    return image;
 }
 
 }  // namespace nearlight::core

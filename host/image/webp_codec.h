@@ -14,6 +14,6 @@ namespace nearlight::core {
 /// Reads a WebP image, R, G, B and, if it has it, A: from `bytes`, the content of a file in memory, or from
 /// `file` itself if `bytes` is empty. Nothing if it is not WebP. Throws Error(ErrorKind::file) if it is
 /// damaged.
-std::optional<DecodedImage> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes);
+std::optional<Image> decode_webp(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 }  // namespace nearlight::core

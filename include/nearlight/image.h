@@ -82,12 +82,13 @@ NEARLIGHT_API Image read_image(const std::filesystem::path& file);
 /// is removed. Their exposure and tone curve stay. Throws as read_image() does, from any thread.
 NEARLIGHT_API Image read_linear_image(const std::filesystem::path& file);
 
-/// How much a picture differs from a reference, over all pixels that are finite in both.
+/// How much a picture differs from a reference, over all pixels that are finite in both; NaN if there is
+/// none.
 struct Difference {
     double rmse = 0;             ///< root of the mean square over pixels and R, G, B
     double relative_mse = 0;     ///< mean of (a − b)² / (b² + 0.01), b the reference
     double mean_ratio = 0;       ///< mean luminance of the picture divided by that of the reference
-    double flip = 0;             ///< mean FLIP of the tone-mapped pictures, 0 (equal) to 1
+    double flip = 0;             ///< mean FLIP of the pictures, clamped to [0, 1]: 0 (equal) to 1
     std::size_t non_finite = 0;  ///< pixels with NaN or infinity in either picture
 };
 

@@ -114,6 +114,80 @@ TEST_F(Diff, FilesThatCannotBeComparedAreErrors) {
     }
 }
 
+TEST_F(Diff, AMapReplacesNoPictureThatItCompares) {
+    const std::string before = file_text(b_);
+    const ProgramResult result = run_program("diff " + both_ + " -o " + quoted(b_));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.errors.find("would replace"), std::string::npos) << result.errors;
+    EXPECT_EQ(file_text(b_), before);
+}
+
+/// A picture whose columns and rows differ.
+Image ramp(int width, int height) {
+    Image image = make_image(width, height, {"R", "G", "B"});
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+        image.values[i] = static_cast<float>(i) / 1000.0f;
+    }
+    return image;
+}
+
+TEST_F(Diff, APartIsComparedWithItsPartOfTheWhole) {
+    const Image whole = ramp(20, 10);
+    const ImagePlace place{.x = 3, .y = 2, .whole_width = 20, .whole_height = 10};
+    write_image(folder_ / "whole.exr", whole);
+    write_image(folder_ / "part.exr", part_of(whole, place, 6, 5), {.place = place});
+    const std::string part = quoted(folder_ / "part.exr") + " ";
+    const std::string all = quoted(folder_ / "whole.exr") + " ";
+    for (const std::string& files : {part + all, all + part}) {
+        const ProgramResult result = run_program("diff --json " + files);
+        ASSERT_EQ(result.exit_code, 0) << result.errors;
+        const nlohmann::json json = nlohmann::json::parse(result.output);
+        EXPECT_EQ(json["width"], 6);
+        EXPECT_EQ(json["layers"][0]["rmse"], 0.0);
+    }
+}
+
+TEST_F(Diff, DifferentPartsAreNotCompared) {
+    const Image whole = ramp(20, 10);
+    for (const int x : {0, 10}) {
+        const ImagePlace place{.x = x, .y = 0, .whole_width = 20, .whole_height = 10};
+        write_image(folder_ / fmt::format("{}.exr", x), part_of(whole, place, 10, 10), {.place = place});
+    }
+    const ProgramResult result =
+        run_program("diff " + quoted(folder_ / "0.exr") + " " + quoted(folder_ / "10.exr"));
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.errors.find("10x10+10+0 of 20x10"), std::string::npos) << result.errors;
+}
+
+TEST_F(Diff, BrightPicturesAreToldOf) {
+    write_image(folder_ / "bright.exr", constant_image(20, 10, {"R", "G", "B"}, 5.0f));
+    const std::string files = quoted(a_) + " " + quoted(folder_ / "bright.exr");
+    EXPECT_NE(run_program("diff " + files).errors.find("--exposure"), std::string::npos);
+    const ProgramResult darker = run_program("diff --json --exposure -3 " + files);
+    EXPECT_EQ(darker.errors, "");
+    EXPECT_GT(nlohmann::json::parse(darker.output)["layers"][0]["flip"], 0.1);
+}
+
+TEST_F(Diff, GreysAreAPicture) {
+    write_image(folder_ / "a.exr", constant_image(4, 4, {"Y"}, 0.25f));
+    write_image(folder_ / "b.exr", constant_image(4, 4, {"Y"}, 0.5f));
+    const ProgramResult result =
+        run_program("diff --json " + quoted(folder_ / "a.exr") + " " + quoted(folder_ / "b.exr"));
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_NEAR(nlohmann::json::parse(result.output)["layers"][0]["mean_ratio"], 0.5, 1e-6);
+}
+
+TEST_F(Diff, NumbersOfMattesAreNoColours) {
+    const Image mattes =
+        constant_image(4, 4, {"R", "G", "B", "Object00.R", "Object00.G", "Object00.B"}, 0.5f);
+    write_image(folder_ / "m.exr", mattes,
+                {.metadata = {{"cryptomatte/1234567/name", std::string("Object")}}});
+    const std::string file = quoted(folder_ / "m.exr");
+    const ProgramResult result = run_program("diff --json " + file + " " + file);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(nlohmann::json::parse(result.output)["layers"].size(), 1u);
+}
+
 TEST_F(Diff, OldMapSurvivesFailure) {
     const auto map = folder_ / "map.png";
     ASSERT_EQ(run_program("diff " + both_ + " -o " + quoted(map)).exit_code, 0);

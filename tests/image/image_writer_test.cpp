@@ -42,6 +42,9 @@ TEST(ImageIo, APartOfAPictureHasItsPlace) {
     EXPECT_EQ(std::vector({spec.x, spec.y, spec.width, spec.height}), std::vector({5, 7, 9, 23}));
     EXPECT_EQ(std::vector({spec.full_x, spec.full_y, spec.full_width, spec.full_height}),
               std::vector({0, 0, 40, 30}));
+    EXPECT_EQ(read_image(folder / "part.exr").place, (ImagePlace{5, 7, 40, 30}));
+    write_image(folder / "whole.exr", noise(9, 23, kLayers));
+    EXPECT_FALSE(read_image(folder / "whole.exr").place);
 }
 
 TEST(ImageIo, MissingRowsAreZero) {
