@@ -225,6 +225,12 @@ TEST(MitsubaShape, UnevenSpheresAreNoted) {
     EXPECT_TRUE(has_note(scene, "stretches it"));
     const Scene even = files.load_xml(shape("sphere", to_world("<scale value='2'/>")));
     EXPECT_FALSE(has_note(even, "stretches it"));
+    const Scene point = files.load_xml(shape("sphere", "<float name='radius' value='0'/>"));
+    EXPECT_FALSE(has_note(point, "stretches it"));
+    const Scene placed =
+        files.load_xml("<shape type='shapegroup' id='g'>" + shape("sphere") + "</shape>" +
+                       shape("instance", "<ref id='g'/>" + to_world("<scale value='2,1,1'/>")));
+    EXPECT_FALSE(has_note(placed, "stretches it")) << "it is an ellipsoid in Mitsuba, too";
 }
 
 // Writes a picture that is red at the top left, green at the top right, blue at the bottom left and white at

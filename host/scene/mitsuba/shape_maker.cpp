@@ -206,7 +206,8 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
     const bool has_own_normals = !mesh.normals.empty() && !face_normals;
     const bool flips =
         shape.boolean("flip_normals", false) != turns_inside_out(shape, has_own_normals, own, by_instance);
-    if (shape.type == "sphere" && !is_round_sphere(to_world)) {
+    // An instance may stretch a sphere in Mitsuba, too.
+    if (shape.type == "sphere" && linear_determinant(own) != 0.0 && !is_round_sphere(own)) {
         note(notes_, shape.where,
              "the to_world of a sphere stretches it; it is an ellipsoid, but a sphere in Mitsuba");
     }
