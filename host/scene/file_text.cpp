@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <span>
 #include <system_error>
 #include <vector>
 
@@ -83,6 +82,11 @@ FileParts::FileParts(const std::filesystem::path& file) : file_(file) {
 
 std::string FileParts::read(std::uint64_t begin, std::uint64_t count) {
     std::string bytes(std::min(count, size_ - std::min(begin, size_)), '\0');
+    read_into(begin, bytes);
+    return bytes;
+}
+
+void FileParts::read_into(std::uint64_t begin, std::span<char> bytes) {
     if (!bytes.empty()) {
         stream_.seekg(static_cast<std::streamoff>(begin));
         stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -90,7 +94,6 @@ std::string FileParts::read(std::uint64_t begin, std::uint64_t count) {
     if (!stream_) {
         throw Error(ErrorKind::file, file_.string() + ": cannot be read");
     }
-    return bytes;
 }
 
 std::string read_file_text(const std::filesystem::path& file) {

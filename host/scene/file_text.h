@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 
 namespace nearlight::core {
@@ -21,6 +22,8 @@ class FileParts {
     [[nodiscard]] std::uint64_t size() const { return size_; }
     /// `count` bytes from `begin` on; fewer where the file ends before. Throws Error(ErrorKind::file).
     std::string read(std::uint64_t begin, std::uint64_t count);
+    /// Fills `bytes` from `begin` on. Throws Error(ErrorKind::file), also where the file ends before.
+    void read_into(std::uint64_t begin, std::span<char> bytes);
 
   private:
     std::filesystem::path file_;

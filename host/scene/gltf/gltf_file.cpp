@@ -2,15 +2,13 @@
 #include "host/scene/gltf/gltf_file.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-#include <set>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
-#include "host/base/files.h"
 #include "host/scene/file_text.h"
+#include "host/scene/gltf/buffers.h"
+#include "host/scene/gltf/container.h"
 #include "host/scene/gltf/draco_codec.h"
 #include "host/scene/gltf/json_survey.h"
 #include "host/scene/gltf/meshopt.h"
@@ -91,33 +89,13 @@ bool is_decoded_by_meshopt(const JsonSurvey& survey) {
     return is_decoded(survey, "EXT_meshopt_compression") || is_decoded(survey, "KHR_meshopt_compression");
 }
 
-/// The file without what stands beside compressed meshes and what tinygltf refuses there.
-std::string without_stand_ins(std::string text, const JsonSurvey& survey) {
-    if (is_decoded(survey, "KHR_draco_mesh_compression")) {
-        text = without_compressed_indices(text);
-    }
-    if (is_decoded_by_meshopt(survey)) {
-        text = without_fallback_buffers(text);
-    }
-    return text;
-}
-
 /// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
 constexpr std::size_t kMaxNesting = 200;
 
-/// The version in the header of a .glb, or 0.
-std::uint32_t container_version(std::string_view text) {
-    std::uint32_t version = 0;
-    if (text.starts_with("glTF") && text.size() >= 8) {
-        std::memcpy(&version, text.data() + 4, sizeof version);
-    }
-    return version;
-}
-
 /// Refuses what tinygltf must not see: glTF 1, extensions that are not supported here, and JSON that would
 /// overflow the stack.
-void check_before_reading(const GltfFile& file, std::string_view text, const JsonSurvey& survey) {
-    if (container_version(text) == 1 || survey.is_version_1) {
+void check_before_reading(const GltfFile& file, const FileChunks& chunks, const JsonSurvey& survey) {
+    if (chunks.is_version_1 || survey.is_version_1) {
         file.fail("is of glTF 1, but only glTF 2.0 is read; convert it, for example with gltf-pipeline");
     }
     for (const std::string& extension : survey.required) {
@@ -144,71 +122,57 @@ std::string first_line(const std::string& text) {
 }
 
 /// Keeps images from data URIs as they are. Images in files and buffers are read when a material asks for
-/// them; the bytes that tinygltf passes for a buffer may lie beyond its end.
+/// them.
 bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
-    if (image->uri.empty() && image->bufferView < 0) {
-        image->image.assign(bytes, bytes + size);
-        image->as_is = true;
-    }
+    image->image.assign(bytes, bytes + size);
+    image->as_is = true;
     return true;
 }
 
-/// The names under which tinygltf looks for the files of images. A buffer may be in one of these files, too,
-/// which is then not among them.
-std::set<std::string> find_image_paths(const std::filesystem::path& path, const JsonSurvey& survey) {
-    std::set<std::string> paths;
-    const std::string folder = path.parent_path().string();
-    const std::string start = folder.empty() || folder.ends_with('/') ? folder : folder + "/";
-    for (const std::string& uri : survey.images) {
-        paths.insert({start + decoded_uri(uri), "./" + decoded_uri(uri)});
-    }
-    for (const std::string& uri : survey.buffers) {
-        paths.erase(start + decoded_uri(uri));
-        paths.erase("./" + decoded_uri(uri));
-    }
-    return paths;
+/// Hides all files from tinygltf, which would read those of images, only to drop what it has read, and would
+/// wait for pipes. It makes nothing of images that are missing.
+bool has_no_file(const std::string&, void*) {
+    return false;
 }
 
-/// Hides the files of images from tinygltf, which would read all of them, only for keep_image() to drop what
-/// it has read. It makes nothing of files that are missing.
-bool is_no_image(const std::string& path, void* paths_of_images) {
-    std::error_code ignored;
-    return !static_cast<const std::set<std::string>*>(paths_of_images)->contains(path) &&
-           std::filesystem::exists(path.c_str(), ignored);
-}
-
-/// Refuses pipes, for which tinygltf would wait, and folders, which it takes for files of 2⁶³ bytes. The path
-/// ends where a file system ends it: at a zero byte, which a damaged URI may decode to.
-bool read_plain_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
-                     void* unused) {
-    *error = reason_not_to_read(path.c_str());
-    return error->empty() && tinygltf::ReadWholeFile(bytes, error, path, unused);
-}
-
-tinygltf::FsCallbacks callbacks_without(std::set<std::string>& paths_of_images) {
+tinygltf::FsCallbacks callbacks_without_files() {
     tinygltf::FsCallbacks callbacks{};
-    callbacks.FileExists = is_no_image;
+    callbacks.FileExists = has_no_file;
     callbacks.ExpandFilePath = tinygltf::ExpandFilePath;
-    callbacks.ReadWholeFile = read_plain_file;
+    callbacks.ReadWholeFile = tinygltf::ReadWholeFile;
     callbacks.WriteWholeFile = tinygltf::WriteWholeFile;
-    callbacks.user_data = &paths_of_images;
     return callbacks;
+}
+
+void parse_json(GltfFile& file, const std::string& json) {
+    tinygltf::TinyGLTF reader;
+    reader.SetImageLoader(keep_image, nullptr);
+    static_cast<void>(reader.SetFsCallbacks(callbacks_without_files()));
+    std::string error;
+    std::string warning;
+    if (!reader.LoadASCIIFromString(&file.model, &error, &warning, json.data(),
+                                    static_cast<unsigned int>(json.size()), "")) {
+        file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
+    }
+}
+
+/// Gives images the buffer views that tinygltf has not seen.
+void put_images_back(GltfFile& file, const std::vector<EmbeddedImage>& embedded) {
+    for (const auto& [index, view] : embedded) {
+        tinygltf::Image& image = file.model.images.at(index);
+        const std::string owner = "image " + std::to_string(index);
+        static_cast<void>(file.at(file.model.bufferViews, view, "buffer view", owner));
+        image.uri.clear();
+        image.bufferView = view;
+    }
 }
 
 /// Decodes images in data URIs of kinds that tinygltf leaves as they are, such as WebP.
 void decode_other_images(tinygltf::Model& model) {
     for (tinygltf::Image& image : model.images) {
-        const std::size_t comma = image.uri.find(',');
-        const std::string head = image.uri.substr(0, comma);
-        if (!head.starts_with("data:image/") || !head.ends_with(";base64")) {
-            continue;
-        }
-        // tinygltf decodes bytes of this kind, whatever they are.
-        const std::string known = "data:application/octet-stream;base64," + image.uri.substr(comma + 1);
-        std::string kind;
-        if (tinygltf::DecodeDataURI(&image.image, kind, known, 0, false)) {
-            image.mimeType = head.substr(5, head.find(';') - 5);
+        if (image.uri.starts_with("data:image/") && decode_data_uri(image.uri, image.image)) {
+            image.mimeType = image.uri.substr(5, image.uri.find(';') - 5);
             image.uri.clear();
         }
     }
@@ -247,29 +211,24 @@ void GltfFile::fail(const std::string& what) const {
 
 GltfFile read_gltf(const std::filesystem::path& path) {
     GltfFile file{path, {}};
-    std::string text = read_file_text(path);
-    const JsonSurvey survey = survey_json(json_of(text));
-    check_before_reading(file, text, survey);
-    text = without_stand_ins(std::move(text), survey);
-    tinygltf::TinyGLTF reader;
-    reader.SetImageLoader(keep_image, nullptr);
-    std::set<std::string> hidden = find_image_paths(path, survey);
-    static_cast<void>(reader.SetFsCallbacks(callbacks_without(hidden)));
-    std::string error;
-    std::string warning;
-    const std::string folder = path.parent_path().string();
-    const auto size = static_cast<unsigned int>(text.size());
-    const bool read =
-        text.starts_with("glTF")
-            ? reader.LoadBinaryFromMemory(&file.model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(text.data()), size, folder)
-            : reader.LoadASCIIFromString(&file.model, &error, &warning, text.data(), size, folder);
-    if (!read) {
-        file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
-    }
+    std::string bytes = read_file_text(path);
+    const FileChunks chunks = chunks_of(file, bytes);
+    const JsonSurvey survey = survey_json(chunks.json);
+    check_before_reading(file, chunks, survey);
+    const bool is_compressed = is_decoded_by_meshopt(survey);
+    const Decoders decoders{.draco = is_decoded(survey, "KHR_draco_mesh_compression"),
+                            .meshopt = is_compressed};
+    LeanJson lean = survey.is_valid ? lean_json(chunks.json, chunks.is_binary, decoders)
+                                    : LeanJson{.text = std::string(chunks.json)};
+    parse_json(file, lean.text);
     check_version(file);
+    put_images_back(file, lean.images);
+    if (!chunks.is_binary) {
+        bytes = {};  // the data URIs in it have been taken out
+    }
+    read_buffers(file, std::move(lean.buffers), chunks.binary);
     decode_other_images(file.model);
-    if (is_decoded_by_meshopt(survey)) {
+    if (is_compressed) {
         decode_meshopt(file);
     }
     return file;

@@ -3,16 +3,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace nearlight::core::gltf {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Follows the nesting, and collects the strings of the root's lists of extensions, and the names of files
-/// that stand in its lists of images and buffers.
+/// Follows the nesting, and collects the strings of the root's lists of extensions.
 class Surveyor : public nlohmann::json_sax<Json> {
   public:
     explicit Surveyor(JsonSurvey& survey) : survey_(survey) {}
@@ -27,9 +27,6 @@ class Surveyor : public nlohmann::json_sax<Json> {
         if (list_ != nullptr && depth_ == 2) {
             list_->push_back(value);
         }
-        if (files_ != nullptr && depth_ == 3 && is_uri_ && !value.starts_with("data:")) {
-            files_->push_back(value);
-        }
         return true;
     }
     bool key(string_t& value) override {
@@ -37,10 +34,8 @@ class Surveyor : public nlohmann::json_sax<Json> {
             list_ = value == "extensionsRequired" ? &survey_.required
                     : value == "extensionsUsed"   ? &survey_.used
                                                   : nullptr;
-            files_ = value == "images" ? &survey_.images : value == "buffers" ? &survey_.buffers : nullptr;
             is_list_ = value == "meshes" || value == "nodes" || value == "scenes";
         }
-        is_uri_ = value == "uri";
         return true;
     }
     bool start_object(std::size_t) override {
@@ -65,29 +60,8 @@ class Surveyor : public nlohmann::json_sax<Json> {
     JsonSurvey& survey_;
     std::size_t depth_ = 0;
     std::vector<std::string>* list_ = nullptr;
-    std::vector<std::string>* files_ = nullptr;
-    bool is_uri_ = false;   ///< the latest key is that of a URI
     bool is_list_ = false;  ///< the latest key of the root names an array of glTF 2.0
 };
-
-std::string word(std::size_t value) {
-    const auto number = static_cast<std::uint32_t>(value);
-    return {reinterpret_cast<const char*>(&number), sizeof number};
-}
-
-/// The bytes of a .glb before its JSON: the headers of the file and of its first chunk.
-constexpr std::size_t kBinaryHeader = 20;
-
-/// The file with another JSON.
-std::string with_json(std::string_view file, std::string json) {
-    if (!file.starts_with("glTF")) {
-        return json;
-    }
-    const std::string_view rest = file.substr(kBinaryHeader + json_of(file).size());
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    return std::string(file.substr(0, 8)) + word(kBinaryHeader + json.size() + rest.size()) +
-           word(json.size()) + std::string(file.substr(16, 4)) + json + std::string(rest);
-}
 
 /// The objects of an array of an object; none if there is no such array.
 std::vector<Json*> objects_of(Json& object, const char* key) {
@@ -123,12 +97,54 @@ bool is_stand_in(const Json& buffer, bool is_in_file) {
            is_fallback_of(buffer, "KHR_meshopt_compression") || (!buffer.contains("uri") && !is_in_file);
 }
 
-/// The file after `change` has been made to the root of its JSON.
-template <typename Change>
-std::string changed_json(std::string_view file, const Change& change) {
-    Json root = Json::parse(json_of(file));
-    change(root);
-    return with_json(file, root.dump(-1, ' ', false, Json::error_handler_t::replace));
+constexpr const char* kOneByte = "data:application/octet-stream;base64,AA==";
+
+/// Takes the source of a buffer out. One without a proper length is left, which tinygltf refuses.
+BufferSource take_buffer(Json& buffer, bool is_first_of_binary, Decoders decoders) {
+    BufferSource source;
+    const bool has_uri = buffer.contains("uri");
+    source.is_in_file = is_first_of_binary && !has_uri;
+    source.is_stand_in = decoders.meshopt && is_stand_in(buffer, source.is_in_file);
+    if (has_uri && buffer["uri"].is_string()) {
+        source.uri = std::move(buffer["uri"].get_ref<std::string&>());
+    }
+    if (buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned()) {
+        source.length = buffer["byteLength"].get<std::uint64_t>();
+        buffer["byteLength"] = 1;
+    } else if (source.is_stand_in) {
+        buffer["byteLength"] = 1;
+    }
+    buffer["uri"] = kOneByte;
+    return source;
+}
+
+/// Takes the buffer views of images out. Those that are no whole numbers are left, and those of images that
+/// have a URI, too; tinygltf refuses both.
+std::vector<EmbeddedImage> take_embedded_images(Json& root) {
+    std::vector<EmbeddedImage> embedded;
+    std::size_t index = 0;
+    for (Json* const image : objects_of(root, "images")) {
+        if (!image->contains("uri") && image->contains("bufferView") &&
+            (*image)["bufferView"].is_number_integer()) {
+            const auto view = (*image)["bufferView"].get<std::int64_t>();
+            const bool is_possible = view >= 0 && view <= std::numeric_limits<int>::max();
+            embedded.push_back({index, is_possible ? static_cast<int>(view) : -1});
+            image->erase("bufferView");
+            (*image)["uri"] = "-";
+        }
+        ++index;
+    }
+    return embedded;
+}
+
+void drop_compressed_indices(Json& root) {
+    for (Json* const mesh : objects_of(root, "meshes")) {
+        for (Json* const primitive : objects_of(*mesh, "primitives")) {
+            if (has_extension(*primitive, "KHR_draco_mesh_compression")) {
+                primitive->erase("indices");
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -140,41 +156,20 @@ JsonSurvey survey_json(std::string_view text) {
     return survey;
 }
 
-std::string_view json_of(std::string_view file) {
-    if (!file.starts_with("glTF")) {
-        return file;
+LeanJson lean_json(std::string_view json, bool is_binary, Decoders decoders) {
+    LeanJson lean;
+    Json root = Json::parse(json);
+    if (decoders.draco) {
+        drop_compressed_indices(root);
     }
-    if (file.size() < kBinaryHeader) {
-        return {};
+    bool is_first_of_binary = is_binary;
+    for (Json* const buffer : objects_of(root, "buffers")) {
+        lean.buffers.push_back(take_buffer(*buffer, is_first_of_binary, decoders));
+        is_first_of_binary = false;
     }
-    std::uint32_t length = 0;
-    std::memcpy(&length, file.data() + 12, sizeof length);
-    return file.substr(kBinaryHeader, length);
-}
-
-std::string without_compressed_indices(std::string_view file) {
-    return changed_json(file, [](Json& root) {
-        for (Json* const mesh : objects_of(root, "meshes")) {
-            for (Json* const primitive : objects_of(*mesh, "primitives")) {
-                if (has_extension(*primitive, "KHR_draco_mesh_compression")) {
-                    primitive->erase("indices");
-                }
-            }
-        }
-    });
-}
-
-std::string without_fallback_buffers(std::string_view file) {
-    return changed_json(file, [&](Json& root) {
-        bool is_in_file = file.starts_with("glTF");
-        for (Json* const buffer : objects_of(root, "buffers")) {
-            if (is_stand_in(*buffer, is_in_file)) {
-                (*buffer)["byteLength"] = 1;
-                (*buffer)["uri"] = "data:application/octet-stream;base64,AA==";
-            }
-            is_in_file = false;
-        }
-    });
+    lean.images = take_embedded_images(root);
+    lean.text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return lean;
 }
 
 }  // namespace nearlight::core::gltf

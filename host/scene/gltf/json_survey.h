@@ -2,6 +2,8 @@
 // A first look at the JSON of a glTF file, before anything is made of it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,23 +15,43 @@ struct JsonSurvey {
     std::size_t depth = 0;              ///< how deep arrays and objects are nested
     std::vector<std::string> required;  ///< what `extensionsRequired` names
     std::vector<std::string> used;      ///< what `extensionsUsed` names
-    std::vector<std::string> images;    ///< URIs of files that images name; those that hold data are left out
-    std::vector<std::string> buffers;   ///< and of those that buffers name
     bool is_version_1 = false;          ///< meshes, nodes or scenes have names in place of numbers
 };
 
 /// Reads the text once, in memory that does not grow with how deeply it is nested.
 JsonSurvey survey_json(std::string_view text);
 
-/// The JSON of a .gltf file, or the first chunk of a .glb; empty if a .glb is cut short.
-std::string_view json_of(std::string_view file);
+/// Where the bytes of a buffer come from.
+struct BufferSource {
+    std::string uri;           ///< of a file, or with the bytes in it; may be empty
+    std::uint64_t length = 0;  ///< byteLength
+    bool is_in_file = false;   ///< the first buffer of a .glb, without a URI
+    bool is_stand_in = false;  ///< has no bytes, because what uses it is compressed elsewhere
+};
 
-/// The file without the indices of compressed primitives, which tinygltf refuses because they have no buffer
-/// view. The file must be valid.
-std::string without_compressed_indices(std::string_view file);
+/// An image that is in a buffer.
+struct EmbeddedImage {
+    std::size_t image = 0;
+    int buffer_view = -1;  ///< −1: one that no file can have
+};
 
-/// The file with one byte in place of each buffer that stands in for compressed buffer views. Often there is
-/// no such buffer, only its length, which tinygltf refuses. The file must be valid.
-std::string without_fallback_buffers(std::string_view file);
+/// JSON of which tinygltf reads no buffers and files, and what was taken out of it.
+struct LeanJson {
+    std::string text;
+    std::vector<BufferSource> buffers{};
+    std::vector<EmbeddedImage> images{};
+};
+
+/// The kinds of compressed data that are decoded.
+struct Decoders {
+    bool draco = false;
+    bool meshopt = false;
+};
+
+/// The JSON with one byte in place of each buffer, and with a name that no file has in place of the buffer
+/// view of each image, which tinygltf looks up without a check. Compressed primitives lose their indices,
+/// which it refuses because they have no buffer view. The JSON must be valid; `is_binary`: it is that of a
+/// .glb.
+LeanJson lean_json(std::string_view json, bool is_binary, Decoders decoders);
 
 }  // namespace nearlight::core::gltf
