@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "host/image/image_io.h"
 #include "host/scene/texture.h"
-#include "tests/scene/gltf_text.h"
+#include "tests/scene/gltf_look.h"
 
 namespace nearlight::core {
 namespace {
@@ -16,34 +15,6 @@ using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 using namespace test;
-
-Material top_material(const Scene& scene) {
-    return scene.materials.at(scene.triangles.at(0).material);
-}
-
-/// The material behind wrappers that have one child.
-Material innermost(const Scene& scene) {
-    Material material = top_material(scene);
-    while (material.model >= NEARLIGHT_BSDF_MASK) {
-        material = scene.materials.at(material.child[0]);
-    }
-    return material;
-}
-
-void expect_note(const Scene& scene, const std::string& text) {
-    EXPECT_THAT(scene.notes, Contains(Field(&Note::text, HasSubstr(text))));
-}
-
-class GltfLook : public GltfLoader {
-  protected:
-    /// Texture 0: one texel of these numbers.
-    void add_texel(const std::vector<float>& rgba) {
-        write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B", "A"}, rgba});
-        gltf_.root["images"] = {{{"uri", "texel.exr"}}};
-        gltf_.root["textures"] = {{{"source", 0}}};
-    }
-    json& extension(const std::string& name) { return gltf_.material()["extensions"][name]; }
-};
 
 TEST_F(GltfLook, ClearcoatAndSheenAreThoseOfThePrincipledModel) {
     add_texel({0.5f, 0, 0, 1});
@@ -109,25 +80,6 @@ TEST_F(GltfLook, AnisotropyDoesNotFrostGlass) {
     EXPECT_NEAR(alphas_of(opaque)[0], 0.0625 + 0.9375 * 0.25, 1e-6);
     EXPECT_NEAR(alphas_of(opaque)[1], 0.0625, 1e-6);
     expect_note(blend, "KHR_materials_anisotropy is left out of glass");
-}
-
-TEST_F(GltfLook, UnlitSurfacesShineWithTheirColour) {
-    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}};
-    extension("KHR_materials_unlit") = json::object();
-    const Scene scene = load();
-    expect_close(top_material(scene).emission.value, {0.2f, 0.4f, 0.6f});
-    EXPECT_TRUE(is_zero(innermost(scene).reflectance.value));
-    expect_note(scene, "KHR_materials_unlit");
-}
-
-TEST_F(GltfLook, HolesOfUnlitSurfacesDoNotShine) {
-    add_texel({1, 1, 1, 0.25f});
-    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-                        {"alphaMode", "BLEND"}};
-    extension("KHR_materials_unlit") = json::object();
-    const Scene scene = load();
-    EXPECT_NEAR(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f).x, 0.25f, 1e-3f);
-    EXPECT_NEAR(parameter_value(scene, top_material(scene).reflectance, 0.5f, 0.5f).x, 0.25f, 1e-3f);
 }
 
 TEST_F(GltfLook, TransmissionIsTextured) {
@@ -254,56 +206,6 @@ TEST_F(GltfLook, PlacementsThatMirrorTurnNormalMapsOver) {
     };
     expect_close(normals(0), {0.75f, 0.75f, 1}, 1e-3f);
     expect_close(normals(2), {0.75f, 0.25f, 1}, 1e-3f);
-}
-
-TEST_F(GltfLook, HolesShineAsMuchAsTheyAreFilled) {
-    add_texel({1, 1, 1, 0.5f});
-    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
-                        {"alphaMode", "BLEND"},
-                        {"emissiveFactor", {1, 0.5, 0}}};
-    const auto emission = [&] {
-        const Scene scene = load();
-        return parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f);
-    };
-    expect_close(emission(), {0.5f, 0.25f, 0});
-    gltf_.material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-    expect_close(emission(), {0.25f, 0.125f, 0}, 1e-3f);
-    gltf_.material()["emissiveTexture"] = {{"index", 0}};
-    expect_close(emission(), {0.25f, 0.125f, 0}, 1e-3f);
-    gltf_.material()["alphaMode"] = "MASK";
-    gltf_.material()["alphaCutoff"] = 0.2;
-    expect_close(emission(), {1, 0.5f, 0}, 1e-3f);
-    gltf_.material()["alphaCutoff"] = 0.3;
-    expect_close(emission(), {0, 0, 0});
-    gltf_.material().erase("emissiveTexture");
-    expect_close(emission(), {0, 0, 0});
-    gltf_.material()["alphaCutoff"] = 0.6;  // above the factor, so that no texel passes
-    expect_close(emission(), {0, 0, 0});
-    gltf_.material()["alphaMode"] = "OPAQUE";
-    expect_close(emission(), {1, 0.5f, 0});
-    extension("KHR_materials_unlit") = json::object();
-    gltf_.material()["alphaMode"] = "BLEND";
-    expect_close(emission(), {0.25f, 0.25f, 0.25f}, 1e-3f);
-}
-
-/// Two textures are one image if they agree in the format that is read.
-TEST_F(GltfLook, HolesOfOtherImagesAreNoted) {
-    add_texel({1, 1, 1, 0.5f});
-    gltf_.root["images"].push_back({{"uri", "other.exr"}});
-    write_image(files_.path("other.exr"), {1, 1, {"R", "G", "B"}, {1, 1, 1}});
-    gltf_.root["textures"] = {{{"source", 0}}, {{"source", 1}}};
-    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-                        {"alphaMode", "BLEND"},
-                        {"emissiveTexture", {{"index", 1}}},
-                        {"emissiveFactor", {1, 1, 1}}};
-    const Scene scene = load();
-    expect_close(parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f), {1, 1, 1}, 1e-3f);
-    expect_note(scene, "shine in the holes");
-    gltf_.root["textures"][1] = {{"source", 1}, {"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
-    const Scene shared = load();
-    expect_close(parameter_value(shared, top_material(shared).emission, 0.5f, 0.5f), {0.5f, 0.5f, 0.5f},
-                 1e-3f);
-    EXPECT_THAT(shared.notes, Not(Contains(Field(&Note::text, HasSubstr("shine in the holes")))));
 }
 
 TEST_F(GltfLook, ImagesOfOtherKindsInDataUris) {

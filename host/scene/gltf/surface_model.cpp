@@ -126,11 +126,12 @@ Parameter emission_of(const tinygltf::Material& source, const Base& base, const 
     if (source.emissiveTexture.index < 0) {
         return times_opacity(source, base, emission, context);
     }
-    const bool same = context.textures.share_image(source.emissiveTexture, base.texture);
+    const bool same = context.textures.show_same(source.emissiveTexture, base.texture);
     const TexelRule rule = shining_rule(source, base);
     if (rule.times_alpha && base.texture.index >= 0 && !same) {
         context.approximate(
-            "emissive textures shine in the holes of base colour textures, because they are other images");
+            "emissive textures shine in the holes of base colour textures, because they show other images or "
+            "other places of them");
     }
     return context.textures.textured_by(source.emissiveTexture, emission * opacity_of_factor(source, base),
                                         same ? rule : TexelRule{}, context.sets);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "host/scene/material_model.h"
 #include "host/scene/texture.h"
@@ -75,6 +76,14 @@ void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
     texture.wrap_t = wrap_of(sampler.wrapT);
     texture.filter = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? NEARLIGHT_FILTER_NEAREST
                                                                           : NEARLIGHT_FILTER_BILINEAR;
+}
+
+bool are_placed_alike(const Texture& a, const Texture& b) {
+    const auto numbers = [](const Texture& t) {
+        return std::tuple(t.u_scale, t.u_shear, t.u_offset, t.v_shear, t.v_scale, t.v_offset, t.wrap_s,
+                          t.wrap_t, t.filter);
+    };
+    return numbers(a) == numbers(b);
 }
 
 /// The index of the texture's image of the kind WebP, or −1.
@@ -169,6 +178,15 @@ int TextureMaker::image_of(const tinygltf::Texture& texture) {
     return -1;
 }
 
+/// How and where the texture shows its image.
+void TextureMaker::place(const tinygltf::TextureInfo& info, const tinygltf::Texture& source,
+                         Texture& texture) const {
+    apply_transform(info, texture);
+    if (source.sampler >= 0) {
+        apply_sampler(file_.at(file_.model.samplers, source.sampler, "sampler", "a texture"), texture);
+    }
+}
+
 Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 value, const TexelRule& rule,
                                     const TextureSets& sets, uint flags, float cutoff) {
     if (info.index < 0 || is_zero(value)) {
@@ -187,11 +205,7 @@ Parameter TextureMaker::textured_by(const tinygltf::TextureInfo& info, Vec3 valu
         return parameter_of(value * 0.5f);
     }
     SceneTexture texture = plain_texture(entry->second);
-    apply_transform(info, texture.parameters);
-    if (source.sampler >= 0) {
-        apply_sampler(file_.at(file_.model.samplers, source.sampler, "sampler", "a texture"),
-                      texture.parameters);
-    }
+    place(info, source, texture.parameters);
     const bool is_second = texture_set_of(file_, info) != sets.first;
     texture.parameters.flags = flags | (is_second ? NEARLIGHT_TEXTURE_SECOND_UV : 0u);
     texture.parameters.cutoff = cutoff;
@@ -225,13 +239,27 @@ Vec3 TextureMaker::mean(const Parameter& parameter) const {
     return mean_value(scene_, parameter);
 }
 
-bool TextureMaker::share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) {
-    const auto image = [&](const tinygltf::TextureInfo& info) {
+bool TextureMaker::show_same(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) {
+    const auto source = [&](const tinygltf::TextureInfo& info) {
         const auto index = static_cast<std::size_t>(info.index);
         const bool is_there = info.index >= 0 && index < file_.model.textures.size();
-        return is_there ? readable_image_of(file_.model.textures[index]) : -1;
+        return is_there ? &file_.model.textures[index] : nullptr;
     };
-    return image(a) >= 0 && image(a) == image(b);
+    const tinygltf::Texture* const source_a = source(a);
+    const tinygltf::Texture* const source_b = source(b);
+    if (source_a == nullptr || source_b == nullptr) {
+        return false;
+    }
+    const int image = readable_image_of(*source_a);
+    if (image < 0 || image != readable_image_of(*source_b) ||
+        texture_set_of(file_, a) != texture_set_of(file_, b)) {
+        return false;
+    }
+    Texture place_a = plain_texture(0).parameters;
+    Texture place_b = place_a;
+    place(a, *source_a, place_a);
+    place(b, *source_b, place_b);
+    return are_placed_alike(place_a, place_b);
 }
 
 }  // namespace nearlight::core::gltf

@@ -51,8 +51,8 @@ class TextureMaker {
     Parameter vertex_number(float cutoff);
     /// The mean of a parameter over its texture.
     [[nodiscard]] Vec3 mean(const Parameter& parameter) const;
-    /// Whether both textures show the same image.
-    [[nodiscard]] bool share_image(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b);
+    /// Whether both textures show the same image at the same places of a surface.
+    [[nodiscard]] bool show_same(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b);
 
   private:
     [[nodiscard]] std::vector<ImageSource> shown_images() const;
@@ -61,6 +61,7 @@ class TextureMaker {
     /// one; −1 if it has none.
     [[nodiscard]] int readable_image_of(const tinygltf::Texture& texture);
     [[nodiscard]] int image_of(const tinygltf::Texture& texture);
+    void place(const tinygltf::TextureInfo& info, const tinygltf::Texture& source, Texture& texture) const;
     int load_image(const tinygltf::Image& image, const TexelRule& rule);
 
     const GltfFile& file_;
