@@ -285,6 +285,27 @@ TEST(Obj, CommentsDoNotContinue) {
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
 }
 
+TEST(Obj, CommentsMayStandBehindNumbers) {
+    const SceneFiles files;
+    const Scene scene =
+        load_obj(files,
+                 "v 0 0 0 1 0 0 # red\nv 1 0 0 1 0 0#red\r\nv 1 1 0 1 0 0 # 5\nv 0 1 0 1 0 0\n"
+                 "v 0 1 1 1 0 0\nvt 0 0 # here\nvn 0 0 1 # up\ns 1 # smooth\n"
+                 "f 1/1 2/1 3/1 # a face / with a slash\n\tf 1 3 4 # 5\ns off # flat\nf 1 2 5#");
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    EXPECT_EQ(scene.vertex_colors.size(), scene.vertices.size());
+    EXPECT_FALSE(has_note(scene, "decimal numbers"));
+}
+
+TEST(Obj, NamesMayHaveTheSignOfComments) {
+    const SceneFiles files;
+    files.write("m#1.mtl", "newmtl a #2\nKd 0.1 0.2 0.3\n");
+    const Scene scene =
+        load_obj(files, "mtllib m#1.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a #2\nf 1 2 3 # a face\n");
+    ASSERT_FALSE(scene.material_names.empty());
+    EXPECT_EQ(scene.material_names[scene.triangles.at(0).material], "a #2");
+}
+
 TEST(Obj, TextOfWideCharactersIsNamed) {
     const SceneFiles files;
     const std::string error = file_error([&] { load_obj(files, std::string("\xff\xfev\0 \0", 6)); });

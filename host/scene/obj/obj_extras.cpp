@@ -34,6 +34,22 @@ std::optional<std::array<float, 6>> numbers_of_colored_vertex(std::string_view l
     return at == end ? std::optional(numbers) : std::nullopt;
 }
 
+/// Blanks comments behind faces, numbers of vertices and smoothing groups, which tinyobjloader would read on
+/// into. Names may have the sign in them, and keep it.
+void blank_comments(std::string& text) {
+    constexpr std::array<std::string_view, 5> kWithoutNames{"f", "v", "vt", "vn", "s"};
+    for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at)) {
+        const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view word = first_word(std::string_view(text).substr(begin, at - begin));
+        if (std::ranges::find(kWithoutNames, word) != kWithoutNames.end()) {
+            std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
+                      text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        }
+        at = end;
+    }
+}
+
 /// Whether the line that begins at this place, and is not blank, is a comment.
 bool is_comment(std::string_view text, std::size_t begin) {
     return text[text.find_first_not_of(" \t", begin)] == '#';
@@ -118,6 +134,7 @@ void tidy_lines(std::string& text) {
     if (taken > 0) {
         text = joined.append(text, taken);
     }
+    blank_comments(text);
     // Hardly any file has such slashes, and a single look at all of it costs little.
     const auto slash = std::ranges::adjacent_find(
         text, [](char c, char next) { return c == '/' && static_cast<unsigned char>(next) <= ' '; });
@@ -135,7 +152,6 @@ OddNumbers odd_numbers(std::string_view text) {
         const bool is_position = line == "v" || (line.size() > 1 && line[0] == 'v' && is_blank(line[1]));
         const std::size_t needed = is_position || line.starts_with("vn") ? 3 : line.starts_with("vt") ? 1 : 0;
         line = line.substr(std::min<std::size_t>(is_position ? 1 : 2, line.size()));
-        line = line.substr(0, line.find('#'));
         if (needed > 0 && number_count(line) < needed) {
             odd.first_line = odd.lines++ == 0 ? number : odd.first_line;
         }

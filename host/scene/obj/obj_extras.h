@@ -12,8 +12,9 @@ namespace nearlight::core {
 
 /// Takes away the byte order mark with which some editors begin UTF-8 text. Makes each line end with a line
 /// feed, as carriage returns alone end lines too, and joins lines that end with a backslash with the next
-/// ones, unless they are comments. Later lines keep their numbers. Takes away slashes behind which a face has
-/// no number, as in `f 1// 2// 3//`.
+/// ones, unless they are comments. Later lines keep their numbers. Takes away comments behind what a line
+/// says of faces, vertices and smoothing, and slashes behind which a face has no number, as in `f 1// 2//
+/// 3//`.
 void tidy_lines(std::string& text);
 
 /// Faces from `first_face` on, counted from 0, belong to this group of `s` lines; 0 is none.
