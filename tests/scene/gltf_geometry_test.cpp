@@ -116,6 +116,53 @@ TEST_F(GltfLoader, WithoutNormalsFacetsAreFlat) {
     EXPECT_GT(normal.z, 0.0f);
 }
 
+/// The side to which a triangle shines is that from which its corners run counter-clockwise.
+float front_z(const Scene& scene, std::size_t triangle) {
+    return cross(corner(scene, triangle, 1) - corner(scene, triangle, 0),
+                 corner(scene, triangle, 2) - corner(scene, triangle, 0))
+        .z;
+}
+
+TEST_F(GltfLoader, TheOrderOfCornersSaysWhereTheFrontIs) {
+    json& attributes = gltf_.primitive()["attributes"];
+    attributes["NORMAL"] = gltf_.points({0, 0, -1, 0, 0, -1, 0, 0, -1, 0, 0, -1});
+    for (const double x : {1, -1}) {
+        gltf_.root["nodes"][0]["scale"] = {x, 1, 1};
+        const Scene scene = load();
+        ASSERT_EQ(scene.vertices.size(), 4u);
+        for (const std::size_t triangle : {0, 1}) {
+            EXPECT_GT(front_z(scene, triangle), 0.0f);
+        }
+        for (const Vertex& vertex : scene.vertices) {
+            expect_close(vertex.normal, {0, 0, 1});
+        }
+    }
+    attributes["JOINTS_0"] = gltf_.accessor(std::vector<std::uint8_t>(16, 0), 5121, "VEC4", 4);
+    attributes["WEIGHTS_0"] =
+        gltf_.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+    gltf_.root["skins"] = {{{"joints", {1}}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"scale", {-1, 1, 1}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_GT(front_z(load(), 0), 0.0f) << "joints that mirror keep the front in front";
+}
+
+TEST_F(GltfLoader, OnlyNormalsOnTheOtherSideAreTurned) {
+    gltf_.primitive()["attributes"]["NORMAL"] = gltf_.points({0, 0, 2, 0, 0, 1, 0, 0, -1, 0, 0, -3});
+    const Scene scene = load();
+    EXPECT_EQ(scene.vertices.size(), 6u) << "both triangles have two vertices in common";
+    const auto expect_triangle = [&](std::size_t triangle, const std::array<float, 3>& normals) {
+        EXPECT_GT(front_z(scene, triangle), 0.0f);
+        const Triangle& t = scene.triangles.at(triangle);
+        EXPECT_EQ(scene.vertices.at(t.v0).normal.z, normals[0]);
+        EXPECT_EQ(scene.vertices.at(t.v1).normal.z, normals[1]);
+        EXPECT_EQ(scene.vertices.at(t.v2).normal.z, normals[2]);
+    };
+    expect_triangle(0, {1, 1, -1});
+    expect_triangle(1, {-1, 1, 1});
+    expect_close(corner(scene, 1, 1), {1, 1, 0});
+    EXPECT_EQ(scene.vertices.at(scene.triangles.at(1).v1).u, 1.0f);
+}
+
 TEST_F(GltfLoader, VertexColoursMultiplyTheBase) {
     gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 1, 1, 1}}, {"metallicFactor", 0}};
     gltf_.primitive()["attributes"]["COLOR_0"] = gltf_.accessor(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene/gltf/front_normals.h"
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/mesh_pose.h"
 #include "host/scene/ray_epsilon.h"
@@ -132,8 +133,12 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
     }
     read_colors(data, primitive.material, mesh);
     mesh.triangles = triangles_of(data.mode(), data.corners(mesh.positions.size()));
-    apply_pose(node, primitive, data, mesh);
     check_mesh(mesh);
+    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive, mesh,
+                        notes_);
+    // Joints that mirror a mesh keep its front in front, so its side is told before they move it.
+    const std::vector<bool> against_normals = triangles_against_normals(mesh);
+    move_joints(node, data, mesh);
     if (!std::ranges::all_of(mesh.positions, [](Vec3 position) { return is_finite(position); })) {
         file_.fail("the mesh of node '" + node.name + "' has a position that is not finite");
     }
@@ -144,6 +149,7 @@ Mesh MeshMaker::read_mesh(const tinygltf::Node& node, const tinygltf::Primitive&
         }
         group_by_side(mesh);
     }
+    turn_normals(mesh, against_normals);
     return mesh;
 }
 
@@ -181,10 +187,7 @@ void MeshMaker::read_colors(const PrimitiveData& data, int material, Mesh& mesh)
     mesh.second_uvs = alphas;
 }
 
-void MeshMaker::apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
-                           const PrimitiveData& data, Mesh& mesh) {
-    apply_morph_targets(file_, node, file_.model.meshes[static_cast<std::size_t>(node.mesh)], primitive, mesh,
-                        notes_);
+void MeshMaker::move_joints(const tinygltf::Node& node, const PrimitiveData& data, Mesh& mesh) {
     if (node.skin < 0) {
         return;
     }

@@ -30,8 +30,7 @@ class MeshMaker {
     /// Notes tangents that differ from those of the texture coordinates.
     void note_other_tangents(const PrimitiveData& data, const Mesh& mesh);
     void read_colors(const PrimitiveData& data, int material, Mesh& mesh);
-    void apply_pose(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
-                    const PrimitiveData& data, Mesh& mesh);
+    void move_joints(const tinygltf::Node& node, const PrimitiveData& data, Mesh& mesh);
     std::vector<uint> choose_materials(int material, const Mesh& mesh, const Mat4& to_world);
     void add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials);
     [[nodiscard]] std::vector<Mat4> placements_of(const PlacedNode& placed, const tinygltf::Node& node);
