@@ -46,6 +46,24 @@ TEST_F(GltfLightsAndCameras, Lights) {
     }
 }
 
+TEST_F(GltfLightsAndCameras, NoScaleOfItsNodeDarkensALight) {
+    gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}}, {{"type", "spot"}, {"spot", json::object()}}};
+    const double half = std::sqrt(0.5);
+    gltf_.root["nodes"] = {{{"mesh", 0}},
+                           {{"scale", {0, 0, 0}},
+                            {"rotation", {0, half, 0, half}},
+                            {"translation", {0, 5, 0}},
+                            {"children", {2}},
+                            {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+                           {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    for (const Emitter& emitter : load().delta_emitters) {
+        expect_close(emitter.direction, {-1, 0, 0});
+    }
+    EXPECT_EQ(load().delta_emitters.size(), 2u);
+}
+
 TEST_F(GltfLightsAndCameras, OddNumbersOfLightsAreNoted) {
     gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"name", "dark"}, {"intensity", -5}},

@@ -12,10 +12,6 @@
 namespace nearlight::core {
 namespace {
 
-const tinygltf::Node& node_of(const gltf::GltfFile& file, const gltf::PlacedNode& placed) {
-    return file.model.nodes[static_cast<std::size_t>(placed.index)];
-}
-
 std::vector<gltf::PlacedCamera> cameras_of(const gltf::GltfFile& file,
                                            const std::vector<gltf::PlacedNode>& nodes) {
     std::vector<gltf::PlacedCamera> cameras;
@@ -66,7 +62,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     add_meshes(file, nodes, materials, scene, notes);
     std::vector<gltf::PlacedLight> lights;
     for (const gltf::PlacedNode& placed : nodes) {
-        gltf::find_light(file, node_of(file, placed), placed.to_world, lights);
+        gltf::find_light(file, placed, lights);
     }
     gltf::add_lights(file, lights, scene, notes);
     const std::vector<gltf::PlacedCamera> cameras = cameras_of(file, nodes);

@@ -26,8 +26,10 @@ Vec3 strength_of(const tinygltf::Light& light) {
     return {channel(0), channel(1), channel(2)};
 }
 
-Vec3 forward(const Mat4& to_world) {
-    return normalize(transform_vector(to_world, {0, 0, -1}));
+/// Where the light shines. A node that its scale makes a point has its rotation still.
+Vec3 forward(const PlacedLight& placed) {
+    const Vec3 scaled = transform_vector(placed.to_world, {0, 0, -1});
+    return normalize(is_zero(scaled) ? transform_vector(placed.turn, {0, 0, -1}) : scaled);
 }
 
 Emitter point_emitter(const PlacedLight& placed) {
@@ -41,7 +43,7 @@ Emitter point_emitter(const PlacedLight& placed) {
 Emitter spot_emitter(const PlacedLight& placed) {
     Emitter emitter = point_emitter(placed);
     emitter.type = NEARLIGHT_EMITTER_SPOT;
-    emitter.direction = forward(placed.to_world);
+    emitter.direction = forward(placed);
     emitter.cutoff_angle =
         static_cast<float>(std::clamp(placed.light->spot.outerConeAngle, 1e-3, std::numbers::pi / 2));
     emitter.beam_angle =
@@ -52,7 +54,7 @@ Emitter spot_emitter(const PlacedLight& placed) {
 Emitter directional_emitter(const PlacedLight& placed) {
     Emitter emitter{};
     emitter.type = NEARLIGHT_EMITTER_DIRECTIONAL;
-    emitter.direction = forward(placed.to_world);
+    emitter.direction = forward(placed);
     emitter.radiance = strength_of(*placed.light);
     return emitter;
 }
@@ -119,11 +121,12 @@ SceneCamera perspective(const GltfFile& file, const PlacedCamera& placed) {
 
 }  // namespace
 
-void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-                std::vector<PlacedLight>& lights) {
+void find_light(const GltfFile& file, const PlacedNode& placed, std::vector<PlacedLight>& lights) {
+    const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(placed.index)];
     if (node.extensions.contains("KHR_lights_punctual")) {
         const int index = index_of(node.extensions, "KHR_lights_punctual", "light", -1);
-        lights.push_back({&file.at(file.model.lights, index, "light", "node '" + node.name + "'"), to_world});
+        lights.push_back({&file.at(file.model.lights, index, "light", "node '" + node.name + "'"),
+                          placed.to_world, placed.turn});
     }
 }
 

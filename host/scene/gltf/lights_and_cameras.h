@@ -15,6 +15,7 @@ namespace nearlight::core::gltf {
 struct PlacedLight {
     const tinygltf::Light* light = nullptr;
     Mat4 to_world;
+    Mat4 turn;  ///< without scales
 };
 /// A camera as it stands in the scene; it looks along the −Z axis of its node. No scale changes it.
 struct PlacedCamera {
@@ -24,8 +25,7 @@ struct PlacedCamera {
 };
 
 /// Adds the node's light, if it has one, to `lights`.
-void find_light(const GltfFile& file, const tinygltf::Node& node, const Mat4& to_world,
-                std::vector<PlacedLight>& lights);
+void find_light(const GltfFile& file, const PlacedNode& placed, std::vector<PlacedLight>& lights);
 /// Adds the node's camera, if it has one, to `cameras`.
 void find_camera(const GltfFile& file, const PlacedNode& placed, std::vector<PlacedCamera>& cameras);
 
