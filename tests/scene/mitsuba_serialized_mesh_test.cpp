@@ -131,6 +131,28 @@ TEST(SerializedMesh, ColoursAndFlatFacetsAreThoseOfTheFile) {
     EXPECT_TRUE(read(zlib_stream(data)).face_normals);
 }
 
+/// Mitsuba 3 does not look at the flag of flat facets, which 0.5 and 0.6 heed.
+TEST(SerializedMesh, OnlyOldScenesHaveTheFlatFacetsOfAFile) {
+    const SceneFiles files;
+    std::string data = bytes(std::uint32_t{0x1011}, '\0', std::uint64_t{3}, std::uint64_t{1});
+    data += bytes(0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f);
+    for (int i = 0; i < 3; ++i) {
+        data += bytes(0.6f, 0.0f, 0.8f);
+    }
+    data += bytes(std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{2});
+    files.write("flat.serialized", header(4) + zlib_stream(data));
+    const auto normal = [&](const std::string& version, const std::string& body) {
+        const std::string text =
+            shape("serialized", "<string name='filename' value='flat.serialized'/>" + body);
+        const Scene scene =
+            load_scene(files.write("scene.xml", "<scene version='" + version + "'>" + text + "</scene>"));
+        return scene.vertices.at(0).normal;
+    };
+    expect_near(normal("3.0.0", ""), {0.6f, 0, 0.8f});
+    expect_near(normal("0.6.0", ""), {0, 0, 0});
+    expect_near(normal("3.0.0", "<boolean name='face_normals' value='true'/>"), {0, 0, 0});
+}
+
 TEST(SerializedMesh, TexturesLookUpColoursOfVertices) {
     const SceneFiles files;
     files.write("a.serialized", header(4) + triangle(4, 1.0, true));

@@ -201,8 +201,10 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
     const std::vector<uint> materials =
         loaded.materials.empty() ? std::vector{material_of(shape, emitted)} : loaded.materials;
     const Mat4 to_world = by_instance * own;
-    // The faces of the other shapes are flat or round whatever the file says.
-    const bool face_normals = is_mesh_file(shape) ? shape.boolean("face_normals", mesh.face_normals) : false;
+    // The faces of the other shapes are flat or round whatever the file says. Mitsuba 3 does not look at what
+    // files of meshes say of theirs.
+    const bool face_normals =
+        is_mesh_file(shape) ? shape.boolean("face_normals", shape.is_old && mesh.face_normals) : false;
     const bool has_own_normals = !mesh.normals.empty() && !face_normals;
     const bool flips =
         shape.boolean("flip_normals", false) != turns_inside_out(shape, has_own_normals, own, by_instance);
