@@ -371,5 +371,28 @@ TEST_F(GltfLoader, CompressedMeshes) {
     EXPECT_THAT(error(), HasSubstr("cannot be decoded"));
 }
 
+/// A square whose vertices have the colour (1, 0, 1) of 255.
+constexpr const char* kCompressedSquare =
+    "RFJBQ08CAgEAAAACBAEAAQIAAgMBAwAJAwAAAwkCAAECAgQAAgICAQABAQADAwEwARADADSCiAQAAAAA/z8AAAABAQAD"
+    "AwEgASADACCEhgIAAAAA/z8AAAABAQACAwFAAQANAAAAAAABAAAAAACAvwAAgL8AAAAAAAAAQA4AAAAAAAAAAAAAgD8O";
+
+TEST_F(GltfLoader, SmallWholeNumbersOfCompressedMeshesAreScaled) {
+    if (!gltf::can_decode_draco()) {
+        GTEST_SKIP() << "this build has no Draco";
+    }
+    const int view = gltf_.view(from_base64(kCompressedSquare));
+    gltf_.root["accessors"] = {
+        {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
+        {{"componentType", 5121}, {"count", 4}, {"type", "VEC4"}, {"normalized", true}}};
+    gltf_.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    gltf_.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    gltf_.primitive() = {{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+    gltf_.primitive()["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", view}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 2}}}};
+    const Scene scene = load();
+    ASSERT_EQ(scene.vertex_colors.size(), 4u);
+    expect_close(scene.vertex_colors[0], {1 / 255.0f, 0, 1 / 255.0f});
+}
+
 }  // namespace
 }  // namespace nearlight::core

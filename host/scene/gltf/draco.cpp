@@ -24,9 +24,10 @@ const DracoCodec* draco_codec() {
     return codec;
 }
 
-/// Many encoders leave it to the accessor to say that whole numbers stand for those up to 1.
+/// Many encoders leave it to the accessor to say that whole numbers stand for those up to 1; some store these
+/// as floats.
 void scale_whole_numbers(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
-                         std::vector<float>& numbers) {
+                         DracoMesh::Attribute& attribute) {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) {
         return;
@@ -38,11 +39,13 @@ void scale_whole_numbers(const GltfFile& file, const tinygltf::Primitive& primit
                        : type == TINYGLTF_COMPONENT_TYPE_BYTE           ? 127.0f
                        : type == TINYGLTF_COMPONENT_TYPE_SHORT          ? 32767.0f
                                                                         : 1.0f;
-    const bool are_whole = std::ranges::any_of(numbers, [](float number) { return std::abs(number) > 1.0f; });
+    const bool are_whole = attribute.are_whole || std::ranges::any_of(attribute.numbers, [](float number) {
+                               return std::abs(number) > 1.0f;
+                           });
     if (!accessor.normalized || !are_whole) {
         return;
     }
-    for (float& number : numbers) {
+    for (float& number : attribute.numbers) {
         number = std::max(number / most, -1.0f);
     }
 }
@@ -69,7 +72,7 @@ void decode_draco(const GltfFile& file, const tinygltf::Primitive& primitive,
         if (found == mesh.attributes.end()) {
             file.fail("a compressed mesh lacks its attribute " + name);
         }
-        scale_whole_numbers(file, primitive, name, found->second.numbers);
+        scale_whole_numbers(file, primitive, name, found->second);
         attributes[name] = {found->second.numbers, found->second.components};
     }
 }

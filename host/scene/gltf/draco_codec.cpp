@@ -17,6 +17,7 @@ std::string read_attribute(const draco::Mesh& mesh, const draco::PointAttribute&
     if (read.components < 1 || read.components > kMaxComponents) {
         return "an attribute has " + std::to_string(read.components) + " numbers";
     }
+    read.are_whole = draco::IsDataTypeIntegral(attribute.data_type()) && !attribute.normalized();
     read.numbers.reserve(std::size_t{mesh.num_points()} * static_cast<std::size_t>(read.components));
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
         float values[kMaxComponents] = {};

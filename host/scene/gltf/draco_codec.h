@@ -16,6 +16,7 @@ struct DracoMesh {
     struct Attribute {
         std::vector<float> numbers;
         int components = 0;
+        bool are_whole = false;  ///< integers that stand for themselves
     };
     std::vector<unsigned int> corners;             ///< vertices of the corners of triangles
     std::map<unsigned int, Attribute> attributes;  ///< by their ids in the compressed mesh
