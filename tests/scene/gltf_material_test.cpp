@@ -258,5 +258,30 @@ TEST_F(GltfLoader, TextureTransforms) {
     EXPECT_NEAR(down[1] - origin[1], 0, 1e-5);
 }
 
+/// Sets of texture coordinates are two at most, of those that can be seen.
+TEST_F(GltfLoader, TexturesOutOfSightAskForNoCoordinates) {
+    write_image(files_.path("texel.exr"), {1, 1, {"R", "G", "B"}, {1, 1, 1}});
+    gltf_.root["images"] = {{{"uri", "texel.exr"}}};
+    gltf_.root["textures"] = {{{"source", 0}}};
+    const auto in_set = [](int set) { return json{{"index", 0}, {"texCoord", set}}; };
+    json& pbr = gltf_.material()["pbrMetallicRoughness"];
+    gltf_.material()["normalTexture"] = in_set(0);
+    pbr = {{"baseColorTexture", in_set(1)}, {"metallicRoughnessTexture", in_set(2)}};
+    EXPECT_THAT(error(), HasSubstr("more than two sets"));
+    pbr["metallicFactor"] = 0;
+    EXPECT_THAT(error(), HasSubstr("more than two sets"));
+    pbr["roughnessFactor"] = 0;
+    EXPECT_EQ(load().triangles.size(), 2u);
+    pbr["roughnessFactor"] = 1;
+    pbr["baseColorFactor"] = {0, 0, 0, 1};
+    EXPECT_EQ(load().triangles.size(), 2u);
+    gltf_.material()["alphaMode"] = "BLEND";  // the texture's alpha counts
+    EXPECT_THAT(error(), HasSubstr("more than two sets"));
+    gltf_.material()["alphaMode"] = "OPAQUE";
+    pbr = {{"baseColorTexture", in_set(1)}};
+    gltf_.material()["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseTexture"] = in_set(2);
+    EXPECT_EQ(load().triangles.size(), 2u) << "the other base is used";
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -22,17 +22,36 @@ bool has_emission(const tinygltf::Material& source) {
     return std::ranges::any_of(source.emissiveFactor, [](double factor) { return factor > 0; });
 }
 
-/// The textures that matter most to a material first, without those that a factor of 0 keeps out of sight.
+/// The texture of the base colour and of the alpha of surfaces that have holes.
+tinygltf::TextureInfo base_texture_of(const tinygltf::Material& source) {
+    if (uses_specular_glossiness(source)) {
+        return texture_of(source.extensions, "KHR_materials_pbrSpecularGlossiness", "diffuseTexture");
+    }
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    const std::vector<double>& factor = pbr.baseColorFactor;
+    const bool is_black = factor.size() >= 3 && factor[0] <= 0 && factor[1] <= 0 && factor[2] <= 0;
+    return is_black && !has_opacity(source) ? tinygltf::TextureInfo{} : pbr.baseColorTexture;
+}
+
+/// The texture of metalness and roughness, or of what is converted to them.
+tinygltf::TextureInfo reflection_texture_of(const tinygltf::Material& source) {
+    if (uses_specular_glossiness(source)) {
+        return texture_of(source.extensions, "KHR_materials_pbrSpecularGlossiness",
+                          "specularGlossinessTexture");
+    }
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    return pbr.metallicFactor > 0 || pbr.roughnessFactor > 0 ? pbr.metallicRoughnessTexture
+                                                             : tinygltf::TextureInfo{};
+}
+
+/// The textures that matter most to a material first, without those that a factor of 0 or another texture
+/// keeps out of sight.
 std::vector<tinygltf::TextureInfo> textures_of(const tinygltf::Material& source) {
-    std::vector<tinygltf::TextureInfo> infos{plain_info(source.normalTexture),
-                                             source.pbrMetallicRoughness.baseColorTexture};
+    std::vector<tinygltf::TextureInfo> infos{plain_info(source.normalTexture), base_texture_of(source)};
     if (has_emission(source)) {
         infos.push_back(source.emissiveTexture);
     }
-    infos.push_back(source.pbrMetallicRoughness.metallicRoughnessTexture);
-    for (const char* key : {"diffuseTexture", "specularGlossinessTexture"}) {
-        infos.push_back(texture_of(source.extensions, "KHR_materials_pbrSpecularGlossiness", key));
-    }
+    infos.push_back(reflection_texture_of(source));
     for (const auto& [extension, factor, key] :
          {std::tuple{"KHR_materials_transmission", "transmissionFactor", "transmissionTexture"},
           {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoatTexture"}}) {

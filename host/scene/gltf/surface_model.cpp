@@ -44,15 +44,9 @@ struct Base {
     float alpha = 1;
 };
 
-/// Whether a material is to be made of KHR_materials_pbrSpecularGlossiness. Where textures of the
-/// metallic-roughness model stand beside it, these are used, because nothing of them has to be converted.
-bool has_specular_glossiness(const tinygltf::Material& source) {
-    return source.extensions.contains(kSpecularGlossiness) && !source.values.contains("baseColorTexture");
-}
-
 Base base_of(const tinygltf::Material& source) {
     Base base;
-    if (has_specular_glossiness(source)) {
+    if (uses_specular_glossiness(source)) {
         base.texture = texture_of(source.extensions, kSpecularGlossiness, "diffuseTexture");
         const std::vector<double> factor =
             numbers_of(source.extensions, kSpecularGlossiness, "diffuseFactor", 4);
@@ -334,6 +328,10 @@ void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceCont
 
 }  // namespace
 
+bool uses_specular_glossiness(const tinygltf::Material& source) {
+    return source.extensions.contains(kSpecularGlossiness) && !source.values.contains("baseColorTexture");
+}
+
 bool has_opacity(const tinygltf::Material& source) {
     return source.alphaMode == "BLEND" || has_mask(source);
 }
@@ -371,7 +369,7 @@ SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext
     surface.color = color_of_base(base, context);
     surface.emission = emission_of(source, base, context);
     read_vertex_alphas(source, base, context, surface);
-    if (has_specular_glossiness(source)) {
+    if (uses_specular_glossiness(source)) {
         read_specular_glossiness(source, context, surface);
     } else {
         read_metallic_roughness(source, context, surface);

@@ -70,6 +70,10 @@ Volume volume_of(const tinygltf::Material& source);
 /// Whether bodies of the material absorb light, more of it the larger they are.
 bool absorbs_inside(const tinygltf::Material& source);
 
+/// Whether a material is to be made of KHR_materials_pbrSpecularGlossiness. Where textures of the
+/// metallic-roughness model stand beside it, these are used, because nothing of them has to be converted.
+bool uses_specular_glossiness(const tinygltf::Material& source);
+
 /// Whether the material has holes, or lets light through.
 bool has_opacity(const tinygltf::Material& source);
 
