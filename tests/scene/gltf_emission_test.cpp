@@ -33,6 +33,27 @@ TEST_F(GltfLook, HolesOfUnlitSurfacesDoNotShine) {
     EXPECT_NEAR(parameter_value(scene, top_material(scene).reflectance, 0.5f, 0.5f).x, 0.25f, 1e-3f);
 }
 
+TEST_F(GltfLook, TheAlphaOfVerticesDimsUnlitSurfaces) {
+    add_texel({0.5f, 1, 1, 1});
+    gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.8, 0.8, 1}}}},
+                        {"alphaMode", "BLEND"}};
+    extension("KHR_materials_unlit") = json::object();
+    const std::vector<float> colors{0.5f, 0.5f, 0.5f, 0.25f, 0.5f, 0.5f, 0.5f, 0.25f,
+                                    0.5f, 0.5f, 0.5f, 0.25f, 0.5f, 0.5f, 0.5f, 0.25f};
+    gltf_.primitive()["attributes"]["COLOR_0"] = gltf_.accessor(colors, 5126, "VEC4", 4);
+    const auto emission = [&] {
+        const Scene scene = load();
+        return parameter_value(scene, top_material(scene).emission, 0.5f, 0.5f, scene.vertex_colors.at(0));
+    };
+    expect_close(emission(), {0.1f, 0.1f, 0.1f}, 1e-6f);
+    EXPECT_FALSE(has_note(load(), "alpha of vertex colours"));
+    gltf_.material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    expect_close(emission(), {0.05f, 0.1f, 0.1f}, 1e-3f);
+    gltf_.material()["pbrMetallicRoughness"].erase("baseColorTexture");
+    gltf_.material()["alphaMode"] = "MASK";
+    expect_note(load(), "surfaces shine in the holes that the alpha of vertex colours makes");
+}
+
 TEST_F(GltfLook, HolesShineAsMuchAsTheyAreFilled) {
     add_texel({1, 1, 1, 0.5f});
     gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},

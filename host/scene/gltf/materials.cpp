@@ -247,6 +247,10 @@ bool MaterialMaker::is_transparent(int index) const {
     return index >= 0 && has_opacity(source_of(index));
 }
 
+bool MaterialMaker::shines_by_alpha(int index) const {
+    return index >= 0 && gltf::shines_by_alpha(source_of(index));
+}
+
 bool MaterialMaker::absorbs_inside(int index) const {
     return index >= 0 && gltf::absorbs_inside(source_of(index));
 }

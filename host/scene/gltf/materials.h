@@ -38,6 +38,8 @@ class MaterialMaker {
     [[nodiscard]] bool has_normal_map(int index) const;
     /// Whether the material has holes, or lets light through.
     [[nodiscard]] bool is_transparent(int index) const;
+    /// Whether the alpha of vertices is to multiply their colours (surface_model.h).
+    [[nodiscard]] bool shines_by_alpha(int index) const;
     /// Whether bodies of the material absorb light, more of it the larger they are.
     [[nodiscard]] bool absorbs_inside(int index) const;
     /// Whether light should leave the back of its surfaces, too.

@@ -184,6 +184,9 @@ void MeshMaker::read_colors(const PrimitiveData& data, int material, Mesh& mesh)
             file_.path, 0, "the alpha of vertex colours is left out beside two sets of texture coordinates");
         return;
     }
+    for (std::size_t i = 0; i < alphas.size() && materials_.shines_by_alpha(material); ++i) {
+        mesh.colors[i] = mesh.colors[i] * alphas[i][0];
+    }
     mesh.second_uvs = alphas;
 }
 

@@ -142,7 +142,13 @@ void read_vertex_alphas(const tinygltf::Material& source, const Base& base, cons
         return;
     }
     surface.vertex_opacity = context.textures.vertex_number(texel_cutoff(source, base));
-    if (surface.emission.texture >= 0) {
+    if (shines_by_alpha(source)) {
+        return;  // the colours of the vertices have been multiplied by it
+    }
+    if (surface.is_unlit) {
+        context.approximate(
+            "KHR_materials_unlit: surfaces shine in the holes that the alpha of vertex colours makes");
+    } else if (surface.emission.texture >= 0) {
         context.approximate("the alpha of vertex colours does not dim the light of textures");
     } else if (!is_zero(surface.emission.value)) {
         surface.emission.texture = surface.vertex_opacity.texture;
@@ -334,6 +340,10 @@ bool uses_specular_glossiness(const tinygltf::Material& source) {
 
 bool has_opacity(const tinygltf::Material& source) {
     return source.alphaMode == "BLEND" || has_mask(source);
+}
+
+bool shines_by_alpha(const tinygltf::Material& source) {
+    return source.alphaMode == "BLEND" && source.extensions.contains("KHR_materials_unlit");
 }
 
 Volume volume_of(const tinygltf::Material& source) {

@@ -77,6 +77,10 @@ bool uses_specular_glossiness(const tinygltf::Material& source);
 /// Whether the material has holes, or lets light through.
 bool has_opacity(const tinygltf::Material& source);
 
+/// Whether the material's colours are to be multiplied by the alpha of vertices, because they are light that
+/// comes from surfaces which let some through.
+bool shines_by_alpha(const tinygltf::Material& source);
+
 /// Reads the material. What cannot be represented is noted by the name of its extension.
 SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context);
 
