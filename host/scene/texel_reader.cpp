@@ -111,8 +111,10 @@ std::array<float, 3> TexelReader::numbers(std::size_t pixel) const {
         }
     }
     if (is_steepened()) {
-        rgb[0] = 0.5f + rule_.steepness_x * (rgb[0] - 0.5f);
-        rgb[1] = 0.5f + rule_.steepness_y * (rgb[1] - 0.5f);
+        const float x = rgb[0] - 0.5f;
+        const float y = rgb[1] - 0.5f;
+        rgb[0] = 0.5f + rule_.steepness_x * x + rule_.x_of_y * y;
+        rgb[1] = 0.5f + rule_.y_of_x * x + rule_.steepness_y * y;
     }
     return rgb;
 }
@@ -129,7 +131,8 @@ bool TexelReader::is_linear() const {
 }
 
 bool TexelReader::is_steepened() const {
-    return rule_.steepness_x != 1.0f || rule_.steepness_y != 1.0f;
+    return rule_.steepness_x != 1.0f || rule_.steepness_y != 1.0f || rule_.x_of_y != 0.0f ||
+           rule_.y_of_x != 0.0f;
 }
 
 float TexelReader::decode(float value) const {

@@ -28,6 +28,9 @@ struct TexelRule {
     /// What x and y of a map of normals are multiplied by, which makes it steeper or turns it over.
     float steepness_x = 1.0f;
     float steepness_y = 1.0f;
+    /// And what is added to them, times y and x, which turns the map.
+    float x_of_y = 0.0f;
+    float y_of_x = 0.0f;
     /// Alpha multiplies linear colours; above an `alpha_cutoff` that is not 0, alpha counts as 1, below as 0.
     bool times_alpha = false;
     float alpha_cutoff = 0.0f;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/scene/texture.h"
 #include "tests/scene/gltf_look.h"
@@ -168,6 +169,30 @@ TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {
     const Scene twice = load();  // and so as it was
     expect_close(parameter_value(twice, top_material(twice).reflectance, 0.5f, 0.5f), {0.625f, 0.625f, 1},
                  1e-3f);
+}
+
+/// The directions of a map are those in which its own coordinates grow, unless the mesh has tangents.
+TEST_F(GltfLook, TextureTransformsTurnNormalMaps) {
+    constexpr double kRight = std::numbers::pi / 2;
+    add_texel({0.75f, 0.5625f, 1, 1});  // (x, y) = (0.5, 0.125)
+    const auto normal = [&](const json& transform) {
+        gltf_.material()["normalTexture"] = {{"index", 0},
+                                             {"extensions", {{"KHR_texture_transform", transform}}}};
+        const Scene scene = load();
+        EXPECT_EQ(has_note(scene, "keep angles"), transform.value("rotation", 0.0) == kRight / 2);
+        return 2 * parameter_value(scene, top_material(scene).reflectance, 0.5f, 0.5f) - Vec3{1, 1, 1};
+    };
+    expect_close(normal({{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}), {0.5f, 0.125f, 1}, 1e-3f);
+    // With u' = v, where v goes down, the map's x goes down, and its y goes to the right.
+    expect_close(normal({{"rotation", kRight}}), {0.125f, -0.5f, 1}, 1e-3f);
+    expect_close(normal({{"scale", {-1, 1}}}), {-0.5f, 0.125f, 1}, 1e-3f);
+    expect_close(normal({{"scale", {1, -2}}}), {0.5f, -0.125f, 1}, 1e-3f);
+    expect_close(normal({{"rotation", kRight}, {"scale", {-1, 1}}}), {-0.125f, -0.5f, 1}, 1e-3f);
+    const float root = std::sqrt(0.5f);
+    expect_close(normal({{"rotation", kRight / 2}}), {0.625f * root, -0.375f * root, 1}, 1e-3f);
+    const std::vector<float> tangents{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    gltf_.primitive()["attributes"]["TANGENT"] = gltf_.accessor(tangents, 5126, "VEC4", 4);
+    expect_close(normal({{"rotation", kRight}}), {0.5f, 0.125f, 1}, 1e-3f);
 }
 
 TEST_F(GltfLook, TangentsThatDifferFromTheTextureCoordinatesAreNoted) {

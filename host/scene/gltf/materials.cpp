@@ -127,15 +127,27 @@ uint MaterialMaker::add_glass(const SurfaceModel& surface) {
     return add(glass);
 }
 
+/// A normal map whose directions are those of the mesh's tangents or else of its texture coordinates after
+/// their transform, as glTF has it. The scene's are those of the coordinates before it.
 uint MaterialMaker::add_normal_map(const tinygltf::Material& source, const SurfaceContext& context,
-                                   bool is_mirrored, uint child) {
+                                   const MaterialUse& use, uint child) {
+    const tinygltf::TextureInfo info = plain_info(source.normalTexture);
+    const TextureAxes axes = use.has_tangents ? TextureAxes{} : texture_axes(info);
+    if (axes.are_oblique()) {
+        approximate(
+            "KHR_texture_transform turns normal maps as on surfaces whose texture coordinates keep angles");
+    }
     const auto scale = static_cast<float>(source.normalTexture.scale);
-    const Parameter normals = textures_.textured_by(plain_info(source.normalTexture), {1, 1, 1},
-                                                    {.gamma = 1.0f,
-                                                     .is_signed = std::abs(scale) > 1.0f,
-                                                     .steepness_x = scale,
-                                                     .steepness_y = is_mirrored ? -scale : scale},
-                                                    context.sets);
+    const float scale_y = use.is_mirrored ? -scale : scale;
+    const Parameter normals =
+        textures_.textured_by(info, {1, 1, 1},
+                              {.gamma = 1.0f,
+                               .is_signed = std::abs(scale) > 1.0f || axes.are_oblique(),
+                               .steepness_x = scale * axes.u[0],
+                               .steepness_y = scale_y * axes.v[1],
+                               .x_of_y = scale * axes.v[0],
+                               .y_of_x = scale_y * axes.u[1]},
+                              context.sets);
     return normals.texture < 0 ? child : add(normal_map_material(normals, child));
 }
 
@@ -186,7 +198,7 @@ uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& us
         }
     }
     if (has_normal_map(use.index) && !surface.is_unlit) {
-        made = add_normal_map(source, context, use.is_mirrored, made);
+        made = add_normal_map(source, context, use, made);
     }
     for (const Parameter& opacity : {surface.opacity, surface.vertex_opacity}) {
         if (opacity.texture >= 0 || opacity.value.x < 1.0f) {
@@ -241,6 +253,11 @@ TextureSets MaterialMaker::texture_sets(int index) const {
 
 bool MaterialMaker::has_normal_map(int index) const {
     return index >= 0 && source_of(index).normalTexture.index >= 0;
+}
+
+bool MaterialMaker::has_placed_normal_map(int index) const {
+    return has_normal_map(index) &&
+           source_of(index).normalTexture.extensions.contains("KHR_texture_transform");
 }
 
 bool MaterialMaker::is_transparent(int index) const {

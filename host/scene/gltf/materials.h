@@ -13,10 +13,11 @@ namespace nearlight::core::gltf {
 
 /// What a mesh has to say about its material.
 struct MaterialUse {
-    int index = -1;            ///< of the material in the file; −1: none, which is grey
-    bool has_colors = false;   ///< the vertices have colours
-    bool has_alphas = false;   ///< and an alpha, as the first of their second texture coordinates
-    bool is_mirrored = false;  ///< texture coordinates run clockwise as seen from the front
+    int index = -1;             ///< of the material in the file; −1: none, which is grey
+    bool has_colors = false;    ///< the vertices have colours
+    bool has_alphas = false;    ///< and an alpha, as the first of their second texture coordinates
+    bool is_mirrored = false;   ///< texture coordinates run clockwise as seen from the front
+    bool has_tangents = false;  ///< which the transform of a normal map does not turn
     float scale = 1;  ///< of lengths from the mesh to the world; 1 unless the material absorbs light inside
 
     auto operator<=>(const MaterialUse&) const = default;
@@ -36,6 +37,8 @@ class MaterialMaker {
     [[nodiscard]] TextureSets texture_sets(int index) const;
     /// Whether the material has a normal map, which tells mirrored texture coordinates from others.
     [[nodiscard]] bool has_normal_map(int index) const;
+    /// Whether the normal map has KHR_texture_transform.
+    [[nodiscard]] bool has_placed_normal_map(int index) const;
     /// Whether the material has holes, or lets light through.
     [[nodiscard]] bool is_transparent(int index) const;
     /// Whether the alpha of vertices is to multiply their colours (surface_model.h).
@@ -59,7 +62,7 @@ class MaterialMaker {
     [[nodiscard]] uint add_glass(const SurfaceModel& surface);
     [[nodiscard]] uint add_rough_pane(const SurfaceModel& surface, double index);
     [[nodiscard]] uint add_normal_map(const tinygltf::Material& source, const SurfaceContext& context,
-                                      bool is_mirrored, uint child);
+                                      const MaterialUse& use, uint child);
     uint add(const Material& material);
     void approximate(const std::string& what);
 

@@ -203,11 +203,16 @@ void MeshMaker::move_joints(const tinygltf::Node& node, const PrimitiveData& dat
 
 /// Makes the materials of the mesh's groups where it stands: two if texture coordinates run clockwise here
 /// and there. A placement that mirrors turns them round, and one that enlarges a body makes it darker.
-std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, const Mat4& to_world) {
+std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, bool has_tangents,
+                                              const Mat4& to_world) {
     const bool mirrors = linear_determinant(to_world) < 0;
     const bool has_alphas = !mesh.second_uvs.empty() && materials_.texture_sets(material).second < 0;
-    MaterialUse use{material, !mesh.colors.empty(), has_alphas, mirrors && !mesh.groups.empty(),
-                    materials_.absorbs_inside(material) ? rounded_scale(to_world) : 1.0f};
+    MaterialUse use{.index = material,
+                    .has_colors = !mesh.colors.empty(),
+                    .has_alphas = has_alphas,
+                    .is_mirrored = mirrors && !mesh.groups.empty(),
+                    .has_tangents = has_tangents && materials_.has_placed_normal_map(material),
+                    .scale = materials_.absorbs_inside(material) ? rounded_scale(to_world) : 1.0f};
     std::vector<uint> chosen{materials_.material(use)};
     if (std::ranges::find(mesh.groups, 1u) != mesh.groups.end()) {
         use.is_mirrored = !use.is_mirrored;
@@ -294,7 +299,8 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
         // Where a file gives no normals, its surfaces have flat facets [glTF 2.0, 3.7.2.1], and where a
         // transform mirrors, their front is the other side.
         const bool is_flat = mesh.normals.empty();
-        const std::vector<uint> materials = choose_materials(primitive.material, mesh, to_world);
+        const std::vector<uint> materials =
+            choose_materials(primitive.material, mesh, data.has("TANGENT"), to_world);
         append_mesh(scene_, mesh,
                     {.to_world = to_world,
                      .materials = materials,

@@ -31,7 +31,8 @@ class MeshMaker {
     void note_other_tangents(const PrimitiveData& data, const Mesh& mesh);
     void read_colors(const PrimitiveData& data, int material, Mesh& mesh);
     void move_joints(const tinygltf::Node& node, const PrimitiveData& data, Mesh& mesh);
-    std::vector<uint> choose_materials(int material, const Mesh& mesh, const Mat4& to_world);
+    std::vector<uint> choose_materials(int material, const Mesh& mesh, bool has_tangents,
+                                       const Mat4& to_world);
     void add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials);
     [[nodiscard]] std::vector<Mat4> placements_of(const PlacedNode& placed, const tinygltf::Node& node);
 

@@ -101,6 +101,19 @@ int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info) {
     return set;
 }
 
+TextureAxes texture_axes(const tinygltf::TextureInfo& info) {
+    Texture t = plain_texture(0).parameters;
+    apply_transform(info, t);
+    const float side = t.u_scale * t.v_scale < t.u_shear * t.v_shear ? -1.0f : 1.0f;
+    const float l = std::hypot(t.v_scale, t.v_shear);
+    if (!(l > 0.0f)) {
+        return {};
+    }
+    // The first column of the inverse matrix.
+    const std::array<float, 2> u{side * t.v_scale / l, -side * t.v_shear / l};
+    return {.u = u, .v = {-side * u[1], side * u[0]}};
+}
+
 /// The images that textures show, in the order of the textures. What is wrong with one is told when a
 /// material asks for it.
 std::vector<ImageSource> TextureMaker::shown_images() const {

@@ -2,7 +2,9 @@
 // Textures of glTF materials: images, samplers, transforms and sets of texture coordinates.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -21,6 +23,17 @@ struct TextureSets {
 
 /// The set that a texture asks for: n of TEXCOORD_n. Calls fail() if it is negative.
 int texture_set_of(const GltfFile& file, const tinygltf::TextureInfo& info);
+
+/// Where u and v of a texture with KHR_texture_transform grow, in the directions in which those of the mesh
+/// do: unit vectors, perpendicular to each other.
+struct TextureAxes {
+    std::array<float, 2> u{1, 0};
+    std::array<float, 2> v{0, 1};
+
+    /// Whether they are neither those of the mesh nor turned by right angles.
+    [[nodiscard]] bool are_oblique() const { return std::min(std::abs(u[0]), std::abs(u[1])) > 1e-4f; }
+};
+TextureAxes texture_axes(const tinygltf::TextureInfo& info);
 
 /// What normal and occlusion textures have in common with all others.
 template <typename Info>
