@@ -128,5 +128,34 @@ TEST_F(GltfLook, HolesOfOtherPlacesOfAnImageAreNoted) {
     EXPECT_NEAR(shines({{"index", 1}}), 1, 1e-3f);
 }
 
+/// A tetrahedron around the origin, as of a sky box; a front that is outside is dark inside.
+TEST_F(GltfLook, TheBackOfAClosedSurfaceShinesWhereTheCameraSeesIt) {
+    gltf_.material() = {{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}};
+    const std::vector<std::uint16_t> outwards{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const std::vector<std::uint16_t> inwards{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    gltf_.primitive()["attributes"] = {
+        {"POSITION", gltf_.points({-1, -1, -1, 3, -1, -1, -1, 3, -1, -1, -1, 3})}};
+    const std::array<double, 3> inside{0, 0, 0};
+    const std::array<double, 3> outside{1, 1.5, 1};
+    const auto triangles = [&](const std::vector<std::uint16_t>& indices, const std::array<double, 3>& eye) {
+        gltf_.primitive()["indices"] = gltf_.accessor(indices, 5123, "SCALAR", 1);
+        return load({.overrides = {.origin = eye}}).triangles.size();
+    };
+    for (const double x : {1, -1}) {
+        gltf_.root["nodes"][0]["scale"] = {x, 1, 1};
+        EXPECT_EQ(triangles(outwards, inside), 8u);
+        EXPECT_EQ(triangles(outwards, outside), 4u);
+        EXPECT_EQ(triangles(inwards, inside), 4u);
+        EXPECT_EQ(triangles(inwards, outside), 8u);
+    }
+    const Scene scene = load({.overrides = {.origin = outside}});
+    EXPECT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.object_names.at(1), "thing");
+    gltf_.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+    gltf_.root["nodes"] = {{{"mesh", 0}}, {{"camera", 0}, {"translation", {0, 0, 0}}}};
+    gltf_.root["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_EQ(load().triangles.size(), 4u) << "the camera of the file is inside, as the front is";
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -21,12 +21,22 @@ std::vector<gltf::PlacedCamera> cameras_of(const gltf::GltfFile& file,
     return cameras;
 }
 
-void add_meshes(const gltf::GltfFile& file, const std::vector<gltf::PlacedNode>& nodes,
-                gltf::MaterialMaker& materials, Scene& scene, NoteSink& notes) {
+gltf::MeshMaker add_meshes(const gltf::GltfFile& file, const std::vector<gltf::PlacedNode>& nodes,
+                           gltf::MaterialMaker& materials, Scene& scene, NoteSink& notes) {
     gltf::MeshMaker meshes(file, scene, materials, notes);
     for (const gltf::PlacedNode& placed : nodes) {
         meshes.add(placed);
     }
+    return meshes;
+}
+
+/// Where the camera of the scene stands, or where the caller places it.
+Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.origin) {
+        const auto& [x, y, z] = *overrides.origin;
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    }
+    return transform_point(scene.camera.to_world, {0, 0, 0});
 }
 
 /// A camera that frames the nodes at rest, so that it stays where it is while they move. Their meshes are
@@ -59,7 +69,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(file);
     scene.pose = options.moment ? gltf::pose_hash(file, nodes) : 0;
     gltf::MaterialMaker materials(file, scene, notes);
-    add_meshes(file, nodes, materials, scene, notes);
+    gltf::MeshMaker meshes = add_meshes(file, nodes, materials, scene, notes);
     std::vector<gltf::PlacedLight> lights;
     for (const gltf::PlacedNode& placed : nodes) {
         gltf::find_light(file, placed, lights);
@@ -74,6 +84,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     } else {
         add_default_camera(scene, is_placed, notes);
     }
+    meshes.add_seen_backs(eye_of(scene, options.overrides));
     if (!options.overrides.bring_light()) {
         // A file with a camera is a scene, which surfaces that shine light. Without one it is a model, of
         // which some parts may glow.

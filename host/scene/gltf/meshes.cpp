@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/scene/gltf/front_normals.h"
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/mesh_pose.h"
+#include "host/scene/gltf/seen_side.h"
 #include "host/scene/ray_epsilon.h"
 #include "host/scene/scene_names.h"
 
@@ -287,28 +289,50 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
     if (!data.has("POSITION")) {
         return;
     }
-    const Mesh mesh = read_mesh(node, primitive, data);
+    Mesh mesh = read_mesh(node, primitive, data);
     const Mat4 world;  // where joints stand
     const std::span<const Mat4> placed = node.skin >= 0 ? std::span(&world, 1) : std::span(placements);
     if (!mesh.triangles.empty() && placed.size() > kMaxSceneTriangles / mesh.triangles.size()) {
         file_.fail("node '" + node.name + "' has " + std::to_string(placed.size()) + " instances of " +
                    std::to_string(mesh.triangles.size()) + " triangles, which are too many");
     }
-    const bool emits_back = materials_.emits_back(primitive.material) && !is_closed(mesh);
+    const bool has_tangents = data.has("TANGENT");
+    const bool emits_back = materials_.emits_back(primitive.material);
+    const bool is_body = emits_back && is_closed(mesh);
     for (const Mat4& to_world : placed) {
         // Where a file gives no normals, its surfaces have flat facets [glTF 2.0, 3.7.2.1], and where a
         // transform mirrors, their front is the other side.
         const bool is_flat = mesh.normals.empty();
         const std::vector<uint> materials =
-            choose_materials(primitive.material, mesh, data.has("TANGENT"), to_world);
+            choose_materials(primitive.material, mesh, has_tangents, to_world);
         append_mesh(scene_, mesh,
                     {.to_world = to_world,
                      .materials = materials,
                      .face_normals = is_flat,
                      .flip_normals = is_flat && linear_determinant(to_world) < 0},
                     notes_);
-        if (emits_back) {
+        if (emits_back && !is_body) {
             add_shining_back(mesh, to_world, materials_.shining_backs(materials));
+        }
+    }
+    if (is_body) {
+        bodies_.push_back({.mesh = std::move(mesh),
+                           .placements = {placed.begin(), placed.end()},
+                           .material = primitive.material,
+                           .has_tangents = has_tangents,
+                           .name = scene_.object_names.back()});
+    }
+}
+
+void MeshMaker::add_seen_backs(Vec3 eye) {
+    for (const ShiningBody& body : bodies_) {
+        for (const Mat4& to_world : body.placements) {
+            if (shows_back(body.mesh, to_world, eye)) {
+                begin_object(scene_, body.name);
+                add_shining_back(body.mesh, to_world,
+                                 materials_.shining_backs(choose_materials(body.material, body.mesh,
+                                                                           body.has_tangents, to_world)));
+            }
         }
     }
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "host/scene/gltf/gltf_file.h"
 #include "host/scene/gltf/materials.h"
@@ -21,8 +23,20 @@ class MeshMaker {
     /// Adds the node's mesh, if it has one, once for each instance (EXT_mesh_gpu_instancing). Points and
     /// lines are left out, with a note.
     void add(const PlacedNode& placed);
+    /// Lets the backs of closed surfaces shine too, where their materials say so and a camera at `eye` sees
+    /// them. The backs of open surfaces shine in any case.
+    void add_seen_backs(Vec3 eye);
 
   private:
+    /// A closed surface that shines to both sides.
+    struct ShiningBody {
+        Mesh mesh;
+        std::vector<Mat4> placements;
+        int material = -1;
+        bool has_tangents = false;
+        std::string name;  ///< of its object
+    };
+
     void add_primitive(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
                        const std::vector<Mat4>& placements);
     [[nodiscard]] Mesh read_mesh(const tinygltf::Node& node, const tinygltf::Primitive& primitive,
@@ -40,6 +54,7 @@ class MeshMaker {
     Scene& scene_;
     NoteSink& notes_;
     MaterialMaker& materials_;
+    std::vector<ShiningBody> bodies_;
     std::optional<std::vector<Mat4>> world_;  ///< of all nodes, once a skin asks for it
 };
 
