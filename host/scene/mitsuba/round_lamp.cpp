@@ -34,6 +34,24 @@ bool is_round_sphere(const Mat4& to_world) {
            std::abs(std::sqrt(dot_of_columns(to_world, 2, 2)) - radius) <= kRoundness * radius;
 }
 
+Mat4 rounded_sphere(const Mat4& to_world) {
+    const double radius = std::sqrt(dot_of_columns(to_world, 0, 0));
+    Mat4 round = to_world;
+    for (int column = 1; column < 3; ++column) {
+        for (int before = 0; before < column; ++before) {
+            const double part = dot_of_columns(round, column, before) / (radius * radius);
+            for (int row = 0; row < 3; ++row) {
+                round(row, column) -= part * round(row, before);
+            }
+        }
+        const double scale = radius / std::sqrt(dot_of_columns(round, column, column));
+        for (int row = 0; row < 3; ++row) {
+            round(row, column) *= scale;
+        }
+    }
+    return round;
+}
+
 std::optional<RoundLamp> round_lamp(const Scene& scene, const std::string& type, const Mat4& to_world,
                                     std::size_t first_triangle) {
     const double radius = round_radius(to_world);

@@ -12,6 +12,10 @@ namespace nearlight::core::mitsuba {
 /// Whether the transform leaves a sphere round.
 bool is_round_sphere(const Mat4& to_world);
 
+/// The transform that Mitsuba has for a sphere instead of one that would stretch it: the radius is that along
+/// the x axis. The transform must have an inverse.
+Mat4 rounded_sphere(const Mat4& to_world);
+
 /// The light that a shape of this type is if it shines evenly and outwards: a sphere or cylinder that its
 /// placement leaves round. `to_world` places the mesh of shape_mesh.h, whose triangles are those of the scene
 /// from first_triangle on.

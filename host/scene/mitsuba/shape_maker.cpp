@@ -100,7 +100,7 @@ void ShapeMaker::add(const Object& shape, uint depth) {
         shape.report_unused(notes_);
         return;
     }
-    add_placed(shape, load(shape), shape.transform("to_world") * local_placement(shape), Mat4{});
+    add_placed(shape, load(shape), own_placement(shape), Mat4{});
 }
 
 void ShapeMaker::add_instance(const Object& instance) {
@@ -118,10 +118,20 @@ void ShapeMaker::add_instance(const Object& instance) {
         if (found == group_meshes_.end()) {
             found = group_meshes_.emplace(shape, load(*shape)).first;
         }
-        add_placed(*shape, found->second, shape->transform("to_world") * local_placement(*shape), to_world,
-                   name + "/");
+        add_placed(*shape, found->second, own_placement(*shape), to_world, name + "/");
     }
     instance.report_unused(notes_);
+}
+
+/// Places the mesh of a shape, apart from an instance of it. An instance may stretch a sphere, but its own
+/// transform does not.
+Mat4 ShapeMaker::own_placement(const Object& shape) {
+    const Mat4 placement = shape.transform("to_world") * local_placement(shape);
+    if (shape.type != "sphere" || linear_determinant(placement) == 0.0 || is_round_sphere(placement)) {
+        return placement;
+    }
+    note(notes_, shape.where, "the to_world of a sphere stretches it; it stays a sphere, as in Mitsuba");
+    return rounded_sphere(placement);
 }
 
 std::string ShapeMaker::name_of(const Object& shape, std::size_t number) const {
@@ -208,11 +218,6 @@ void ShapeMaker::add_placed(const Object& shape, const LoadedMesh& loaded, const
     const bool has_own_normals = !mesh.normals.empty() && !face_normals;
     const bool flips =
         shape.boolean("flip_normals", false) != turns_inside_out(shape, has_own_normals, own, by_instance);
-    // An instance may stretch a sphere in Mitsuba, too.
-    if (shape.type == "sphere" && linear_determinant(own) != 0.0 && !is_round_sphere(own)) {
-        note(notes_, shape.where,
-             "the to_world of a sphere stretches it; it is an ellipsoid, but a sphere in Mitsuba");
-    }
     const std::size_t first_triangle = scene_.triangles.size();
     begin_object(scene_, instance + name_of(shape, instance.empty() ? ++shape_count_ : shape_count_));
     append_mesh(

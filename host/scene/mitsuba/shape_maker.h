@@ -36,6 +36,7 @@ class ShapeMaker {
     /// after that of the instance.
     void add_placed(const Object& shape, const LoadedMesh& loaded, const Mat4& own, const Mat4& by_instance,
                     const std::string& instance = {});
+    Mat4 own_placement(const Object& shape);
     [[nodiscard]] std::string name_of(const Object& shape, std::size_t number) const;
     void add_instance(const Object& instance);
     LoadedMesh load(const Object& shape);
