@@ -62,6 +62,10 @@ def _transforms():
                 mesh('ball.obj', PAINT, face_normals=True, to_world=place(0.4, (0.6, 0.5, 0))))),
             *stage(shape('instance', ref('mirrored'), to_world=place((-1, 1, 1), (0, 0.1, 0)))), point_light(), depth=4),
         'negative-scale-all': _lit(mesh('fine_ball.obj', PAINT, to_world=place(-0.7, (0, 0.75, 0)))),
+        'uneven-scale-sphere': _lit(shape('sphere', PAINT, to_world=place((0.6, 0.4, 0.8), (0, 0.7, 0), turn('z', 30)))),
+        'uneven-scale-instance': scene(
+            with_id('stretched', shape('shapegroup', sphere(PAINT, at=(0, 0.7, 0), radius=0.6))),
+            *stage(shape('instance', ref('stretched'), to_world=place((1.3, 0.8, 0.6), (0, 0, 0)))), point_light(), depth=4),
         'uneven-scale': _lit(mesh('ball.obj', PAINT, to_world=place((1.1, 0.5, 0.4), (0, 0.75, 0), turn('z', 30)))),
         'matrix': _lit(shape('cube', PAINT,
             to_world=transform('<matrix value="0.5 0.2 0 0  0 0.5 0 0.6  0 0.1 0.5 0  0 0 0 1"/>'))),
