@@ -8,6 +8,7 @@
 #include "host/cli/log.h"
 #include "host/cli/pass_list.h"
 #include "host/session/passes.h"
+#include "host/session/splat_rows.h"
 
 namespace nearlight::core {
 namespace {
@@ -58,14 +59,14 @@ void check_variance_is_known(const PictureOptions& picture, const RenderSettings
     }
 }
 
-void warn_of_unsplatted_passes(const RenderSettings& settings) {
+void warn_of_unsplatted_passes(const RenderSettings& settings, const PixelFilter& filter) {
     const uint fewest = min_later_samples(settings.gather);
-    const auto lacks_splats = [&](uint samples) { return samples < fewest; };
-    if (settings.pass_samples.size() > 1 && std::ranges::any_of(settings.pass_samples, lacks_splats) &&
-        !std::ranges::all_of(settings.pass_samples, lacks_splats)) {
+    const auto has_splats = [&](uint samples) { return samples >= fewest; };
+    const bool are_mixed = std::ranges::any_of(settings.pass_samples, has_splats) &&
+                           !std::ranges::all_of(settings.pass_samples, has_splats);
+    if (are_mixed && splat_reach(filter, settings.gather) > 0) {
         spdlog::warn(
-            "--pass-spp has passes of fewer than {} samples, which are noisier than their weight says if the "
-            "pixel filter is wider than a pixel",
+            "--pass-spp has passes of fewer than {} samples, which are noisier than their weight says",
             fewest);
     }
 }

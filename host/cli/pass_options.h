@@ -28,7 +28,7 @@ void check_variance_is_known(const PictureOptions& picture, const RenderSettings
 void warn_of_unknown_variance(const PictureOptions& picture, std::span<const uint> samples);
 /// Warns if some passes of --pass-spp have so few samples per pixel that they have no splats, and others
 /// have.
-void warn_of_unsplatted_passes(const RenderSettings& settings);
+void warn_of_unsplatted_passes(const RenderSettings& settings, const PixelFilter& filter);
 
 /// Logs after a pass how long the way to the error is.
 void tell_forecast(const PassForecast& forecast, double target);

@@ -61,6 +61,7 @@ ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, 
     RenderRun run = get_ready(options, global, choice);
     PictureStart start{.facts = run.facts()};
     start.passes = pass_start(options.checkpoint, reader, start.facts, run.settings, run.window());
+    warn_of_unsplatted_passes(run.settings, run.scene->camera.filter);
     catch_interrupts();
     Session session(run.plain_devices(), *run.scene, options.session);
     if (helpers != nullptr) {
@@ -107,7 +108,6 @@ RenderOptions with_splats_of_checkpoint(RenderOptions options) {
 ExitCode run_render(const RenderOptions& asked, const GlobalOptions& global) {
     const RenderOptions options = with_splats_of_checkpoint(asked);
     check_variance_is_known(options.picture, settled(options));
-    warn_of_unsplatted_passes(settled(options));
     const ThreadLimit limit(options.threads);
     if (options.threads > 0) {
         limit_driver_threads(options.threads);

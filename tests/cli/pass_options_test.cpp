@@ -154,10 +154,12 @@ TEST_F(PassOptionsOfRender, VarianceOfASingleSampleIsRefusedOrWarnedOf) {
 }
 
 TEST_F(PassOptionsOfRender, PassesWithoutSplatsAreToldOf) {
+    NEARLIGHT_NEEDS_DEVICE();
     constexpr const char* kWarning = "--pass-spp has passes of fewer than 4 samples";
-    EXPECT_TRUE(says(render("--pass-spp 4,2"), kWarning));
-    EXPECT_FALSE(says(render("--pass-spp 2,2"), kWarning)) << "all are alike";
-    EXPECT_FALSE(says(render("--splat off --pass-spp 4,2"), kWarning));
+    EXPECT_TRUE(says(render("--filter gaussian --pass-spp 4,2"), kWarning));
+    EXPECT_FALSE(says(render("--filter gaussian --pass-spp 2,2"), kWarning)) << "all are alike";
+    EXPECT_FALSE(says(render("--filter gaussian --splat off --pass-spp 4,2"), kWarning));
+    EXPECT_FALSE(says(render("--filter box --pass-spp 4,2"), kWarning)) << "no samples are splats";
 }
 
 TEST_F(PassOptionsOfRender, VplsOfAFileAreRefusedBeforeTheSceneIsRead) {
