@@ -145,6 +145,9 @@ TEST_F(Diff, APartIsComparedWithItsPartOfTheWhole) {
         EXPECT_EQ(json["width"], 6);
         EXPECT_EQ(json["layers"][0]["rmse"], 0.0);
     }
+    write_image(folder_ / "part.png", part_of(whole, place, 6, 5));
+    const ProgramResult without_place = run_program("diff " + part + quoted(folder_ / "part.png"));
+    EXPECT_EQ(without_place.exit_code, 0) << without_place.errors;
 }
 
 TEST_F(Diff, DifferentPartsAreNotCompared) {
