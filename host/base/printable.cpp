@@ -9,10 +9,11 @@ namespace {
 
 constexpr std::size_t kMaxLine = 5000;  // bytes; the longest path has 4096
 
-/// The number of bytes of the character at the beginning, which is not ASCII; 0 if it is not UTF-8.
+/// The number of bytes of the character at the beginning; 0 if it is not UTF-8.
 std::size_t character_size(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const std::size_t size = byte(0) < 0xc2   ? 0
+    const std::size_t size = byte(0) < 0x80   ? 1
+                             : byte(0) < 0xc2 ? 0
                              : byte(0) < 0xe0 ? 2
                              : byte(0) < 0xf0 ? 3
                              : byte(0) < 0xf5 ? 4
@@ -37,7 +38,7 @@ std::string printable(std::string_view text) {
     result.reserve(text.size());
     while (!text.empty()) {
         const auto c = static_cast<unsigned char>(text.front());
-        const std::size_t size = c < 0x80 ? 1 : character_size(text);
+        const std::size_t size = character_size(text);
         const bool is_ascii_control = size == 1 && ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f);
         const bool is_other_control = size == 2 && c == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
         if (size == 0 || is_ascii_control || is_other_control) {
@@ -61,7 +62,7 @@ std::string utf8_or_latin1(std::string text) {
     std::string_view rest = text;
     std::size_t size = 1;
     while (!rest.empty() && size > 0) {
-        size = static_cast<unsigned char>(rest.front()) < 0x80 ? 1 : character_size(rest);
+        size = character_size(rest);
         rest.remove_prefix(size);
     }
     if (rest.empty()) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/cli/log.h"
+#include "host/cli/matte_layers.h"
 #include "host/cli/output.h"
 #include "host/cli/picture_files.h"
 #include "host/compare/number_text.h"
@@ -40,15 +41,6 @@ std::string name_of(const std::string& layer) {
     return layer.empty() ? "(picture)" : layer;
 }
 
-/// Whether a layer of a file holds the numbers of names, which are no colours.
-bool is_matte(const Metadata& metadata, const std::string& layer) {
-    return std::ranges::any_of(metadata, [&](const auto& attribute) {
-        const auto* const name = std::get_if<std::string>(&attribute.second);
-        return name != nullptr && attribute.first.starts_with("cryptomatte/") &&
-               attribute.first.ends_with("/name") && layer.starts_with(*name);
-    });
-}
-
 /// The layers that the options name, or else all layers of colours that both pictures have. A picture of
 /// greys is one layer, Y.
 std::vector<std::string> layers_to_compare(const DiffOptions& options, const Image& a, const Image& b) {
@@ -61,7 +53,7 @@ std::vector<std::string> layers_to_compare(const DiffOptions& options, const Ima
     const Metadata metadata = colors.size() > 1 ? read_metadata(options.image) : Metadata();
     std::vector<std::string> layers;
     for (const std::string& layer : colors) {
-        if (has_color_layer(b, layer) && !is_matte(metadata, layer)) {
+        if (has_color_layer(b, layer) && !is_matte_layer(layer, metadata)) {
             layers.push_back(layer);
         }
     }
@@ -132,7 +124,7 @@ void cut_to(const Image& part, Image& whole) {
                            place->y + part.height <= whole.height;
     if (is_inside && !whole.place && place->whole_width == whole.width &&
         place->whole_height == whole.height) {
-        whole = part_of(whole, *place, part.width, part.height);
+        whole = part_of(whole, place->x, place->y, part.width, part.height);
     }
 }
 

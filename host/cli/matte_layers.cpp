@@ -69,6 +69,15 @@ void add_matte_attributes(std::span<const MatteLayer> layers, const Scene& scene
     }
 }
 
+bool is_matte_layer(std::string_view layer, const Metadata& metadata) {
+    return std::ranges::any_of(metadata, [&](const auto& attribute) {
+        const auto& [key, value] = attribute;
+        const auto* const name = std::get_if<std::string>(&value);
+        return name != nullptr && key.starts_with(kAttributes) && key.ends_with("/name") &&
+               layer.starts_with(*name);
+    });
+}
+
 Metadata without_matte_attributes(Metadata metadata) {
     std::erase_if(metadata, [](const auto& attribute) { return attribute.first.starts_with(kAttributes); });
     return metadata;

@@ -41,6 +41,8 @@ std::vector<FilmLayer> parts_of(std::span<const MatteLayer> layers, std::size_t 
 
 /// Adds the attributes by which files say what the numbers of mattes stand for.
 void add_matte_attributes(std::span<const MatteLayer> layers, const Scene& scene, Metadata& metadata);
+/// Whether a layer of a file holds mattes, by the attributes of the file. Any program may have written it.
+bool is_matte_layer(std::string_view layer, const Metadata& metadata);
 /// Without those attributes, for files that have no mattes.
 Metadata without_matte_attributes(Metadata metadata);
 

@@ -93,15 +93,7 @@ Image scaled(Image picture, float factor) {
 }
 
 Image cropped(const Image& picture, const Crop& crop) {
-    Image part = make_picture(crop.width, crop.height);
-    for (int y = 0; y < crop.height; ++y) {
-        for (int x = 0; x < crop.width; ++x) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                part.at(x, y, c) = picture.at(crop.x + x, crop.y + y, c);
-            }
-        }
-    }
-    return part;
+    return part_of(picture, crop.x, crop.y, crop.width, crop.height);
 }
 
 Image shrunk(const Image& picture, int max_width) {

@@ -11,18 +11,15 @@ int Image::find_channel(std::string_view name) const {
     return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
 }
 
-Image part_of(const Image& image, const ImagePlace& place, int width, int height) {
+Image part_of(const Image& image, int x, int y, int width, int height) {
     Image part = make_image(width, height, image.channels);
     part.holds_floats = image.holds_floats;
-    part.place = place;
     const std::size_t row = static_cast<std::size_t>(width) * image.channel_count();
-    for (int y = 0; y < height; ++y) {
-        const float* const from =
-            &image.values[(static_cast<std::size_t>(place.y + y) * static_cast<std::size_t>(image.width) +
-                           static_cast<std::size_t>(place.x)) *
-                          image.channel_count()];
-        std::copy_n(from, row,
-                    part.values.begin() + static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(y)));
+    for (int i = 0; i < height; ++i) {
+        const std::size_t from = static_cast<std::size_t>(y + i) * static_cast<std::size_t>(image.width) +
+                                 static_cast<std::size_t>(x);
+        std::copy_n(image.values.data() + from * image.channel_count(), row,
+                    part.values.data() + static_cast<std::size_t>(i) * row);
     }
     return part;
 }

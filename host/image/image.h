@@ -47,8 +47,8 @@ struct Image {
     [[nodiscard]] int find_channel(std::string_view name) const;
 };
 
-/// The part of an image at a place in it, which must lie inside.
-Image part_of(const Image& image, const ImagePlace& place, int width, int height);
+/// The part of an image whose top left pixel is (x, y). It must lie inside.
+Image part_of(const Image& image, int x, int y, int width, int height);
 
 /// An image of zeros.
 Image make_image(int width, int height, std::vector<std::string> channels);

@@ -3,7 +3,7 @@
 // in double precision.
 #pragma once
 
-#include "host/reference/bsdf/vec3d.h"
+#include "host/base/vec3d.h"
 #include "host/reference/sampling.h"
 #include "kernels/shared/light.h"
 

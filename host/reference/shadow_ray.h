@@ -2,7 +2,7 @@
 // Shadow rays of the reference path tracer, which pass straight through veils.
 #pragma once
 
-#include "host/reference/bsdf/vec3d.h"
+#include "host/base/vec3d.h"
 #include "host/reference/light_sampler.h"
 
 namespace nearlight::core {

@@ -159,11 +159,6 @@ PlacedMesh split_faces(const Mesh& mesh, std::span<const Vec3> positions, std::s
     return split;
 }
 
-bool winds_against(const Indices& t, std::span<const Vec3> positions, std::span<const Vec3> normals) {
-    const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
-    return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
-}
-
 void append_placed(Scene& scene, const Mesh& mesh, std::span<const Vec3> positions,
                    std::span<const Vec3> normals, const MeshPlacement& placement, NoteSink& notes) {
     const bool own_normals = !placement.face_normals && !mesh.normals.empty();
@@ -195,6 +190,12 @@ void append_placed(Scene& scene, const Mesh& mesh, std::span<const Vec3> positio
 }
 
 }  // namespace
+
+bool winds_against(const std::array<uint, 3>& t, std::span<const Vec3> positions,
+                   std::span<const Vec3> normals) {
+    const Vec3 geometric = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+    return dot(geometric, normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0f;
+}
 
 // The cofactor matrix serves where the inverse transpose does, and also where the transform flattens space.
 Vec3 transform_normal(const Mat4& m, double sign, Vec3 n) {

@@ -61,6 +61,11 @@ Vec3 transform_normal(const Mat4& m, double sign, Vec3 n);
 /// be seen. Corners at the same place count as one.
 bool is_closed(const Mesh& mesh, std::optional<uint> group = {});
 
+/// Whether the corners of a triangle run clockwise as seen from the side of their normals, which are of
+/// length 1.
+bool winds_against(const std::array<uint, 3>& triangle, std::span<const Vec3> positions,
+                   std::span<const Vec3> normals);
+
 /// Throws Error(ErrorKind::file) for an index out of range, and if normals, colours or texture coordinates
 /// are not as many as positions.
 void check_mesh(const Mesh& mesh);

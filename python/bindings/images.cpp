@@ -192,7 +192,8 @@ void add_images(py::module_& module) {
                       "mean of (a - b)² / (b² + 0.01), b the reference")
         .def_readonly("mean_ratio", &Difference::mean_ratio,
                       "mean luminance divided by that of the reference")
-        .def_readonly("flip", &Difference::flip, "mean FLIP of the tone-mapped pictures, 0 (equal) to 1")
+        .def_readonly("flip", &Difference::flip,
+                      "mean FLIP of the pictures, clamped to [0, 1]: 0 (equal) to 1")
         .def_readonly("non_finite", &Difference::non_finite,
                       "pixels that are left out: NaN or infinity in either")
         .def("__repr__", [](const Difference& difference) { return text_of(difference); });

@@ -135,7 +135,7 @@ TEST_F(Diff, APartIsComparedWithItsPartOfTheWhole) {
     const Image whole = ramp(20, 10);
     const ImagePlace place{.x = 3, .y = 2, .whole_width = 20, .whole_height = 10};
     write_image(folder_ / "whole.exr", whole);
-    write_image(folder_ / "part.exr", part_of(whole, place, 6, 5), {.place = place});
+    write_image(folder_ / "part.exr", part_of(whole, place.x, place.y, 6, 5), {.place = place});
     const std::string part = quoted(folder_ / "part.exr") + " ";
     const std::string all = quoted(folder_ / "whole.exr") + " ";
     for (const std::string& files : {part + all, all + part}) {
@@ -145,7 +145,7 @@ TEST_F(Diff, APartIsComparedWithItsPartOfTheWhole) {
         EXPECT_EQ(json["width"], 6);
         EXPECT_EQ(json["layers"][0]["rmse"], 0.0);
     }
-    write_image(folder_ / "part.png", part_of(whole, place, 6, 5));
+    write_image(folder_ / "part.png", part_of(whole, place.x, place.y, 6, 5));
     const ProgramResult without_place = run_program("diff " + part + quoted(folder_ / "part.png"));
     EXPECT_EQ(without_place.exit_code, 0) << without_place.errors;
 }
@@ -154,7 +154,8 @@ TEST_F(Diff, DifferentPartsAreNotCompared) {
     const Image whole = ramp(20, 10);
     for (const int x : {0, 10}) {
         const ImagePlace place{.x = x, .y = 0, .whole_width = 20, .whole_height = 10};
-        write_image(folder_ / fmt::format("{}.exr", x), part_of(whole, place, 10, 10), {.place = place});
+        write_image(folder_ / fmt::format("{}.exr", x), part_of(whole, place.x, place.y, 10, 10),
+                    {.place = place});
     }
     const ProgramResult result =
         run_program("diff " + quoted(folder_ / "0.exr") + " " + quoted(folder_ / "10.exr"));

@@ -5,8 +5,8 @@
 
 #include <span>
 
+#include "host/reference/bsdf/bsdf_frame.h"
 #include "host/reference/bsdf/microfacets.h"
-#include "host/reference/bsdf/vec3d.h"
 
 namespace nearlight::core {
 

@@ -2,7 +2,7 @@
 // Fresnel's formulas for unpolarised light, and Schlick's approximations of them.
 #pragma once
 
-#include "host/reference/bsdf/vec3d.h"
+#include "host/base/vec3d.h"
 
 namespace nearlight::core {
 

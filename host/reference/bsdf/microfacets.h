@@ -2,7 +2,7 @@
 // Distributions of microfacet normals, and Smith's masking of them.
 #pragma once
 
-#include "host/reference/bsdf/vec3d.h"
+#include "host/base/vec3d.h"
 
 namespace nearlight::core {
 

@@ -2,7 +2,7 @@
 // What surfaces let pass straight on: the share that a shadow ray keeps.
 #pragma once
 
-#include "host/reference/bsdf/vec3d.h"
+#include "host/base/vec3d.h"
 #include "host/reference/surface.h"
 
 namespace nearlight::core {

@@ -2,21 +2,10 @@
 #include "host/scene/gltf/front_normals.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace nearlight::core::gltf {
 namespace {
-
-using Corners = std::array<uint, 3>;
-
-/// The rule by which append_mesh() finds the front, whose normals are of length 1.
-bool is_against_normals(const Mesh& mesh, const Corners& t) {
-    const Vec3 geometric =
-        cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
-    const Vec3 sum =
-        normalize(mesh.normals[t[0]]) + normalize(mesh.normals[t[1]]) + normalize(mesh.normals[t[2]]);
-    return dot(geometric, sum) < 0.0f;
-}
 
 template <typename T>
 void append_again(std::vector<T>& values, uint vertex) {
@@ -38,16 +27,16 @@ uint doubled_vertex(Mesh& mesh, uint vertex) {
 }  // namespace
 
 std::vector<bool> triangles_against_normals(const Mesh& mesh) {
+    if (mesh.normals.empty()) {
+        return {};
+    }
+    std::vector<Vec3> normals;
+    std::ranges::transform(mesh.normals, std::back_inserter(normals), [](Vec3 n) { return normalize(n); });
     std::vector<bool> against;
-    if (mesh.normals.empty() || std::ranges::none_of(mesh.triangles, [&](const Corners& triangle) {
-            return is_against_normals(mesh, triangle);
-        })) {
-        return against;
+    for (const auto& triangle : mesh.triangles) {
+        against.push_back(winds_against(triangle, mesh.positions, normals));
     }
-    for (const Corners& triangle : mesh.triangles) {
-        against.push_back(is_against_normals(mesh, triangle));
-    }
-    return against;
+    return std::ranges::find(against, true) == against.end() ? std::vector<bool>() : against;
 }
 
 void turn_normals(Mesh& mesh, const std::vector<bool>& triangles) {

@@ -74,7 +74,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
     }
     light.to_world = emitter.transform("to_world");
     light.is_interpolated = light.width > 1 && light.height > 1;
-    if (std::ranges::all_of(light.radiance, is_zero)) {
+    if (std::ranges::all_of(light.radiance, [](Vec3 color) { return is_zero(color); })) {
         notes.remark(*emitter.where.file, emitter.where.line, "the environment is black");
     }
     return light;
