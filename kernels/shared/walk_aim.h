@@ -21,8 +21,9 @@ typedef struct Opening {
 
 /// Spheres at which walks from far away aim: one that holds what the camera sees, and its openings. Without
 /// them, nearly all walks from the sky would land on the grounds around a house and stay there
-/// (lib/light/emission.cl for those that enter the scene, lib/aim_cone.cl for those on surfaces). No walk
-/// aims at the sphere if its radius is 0, and none enters by this aim if it is about as large as the scene.
+/// (lib/light/emission.cl for those that enter the scene, lib/aim_cone.cl for those on lamps and surfaces).
+/// No walk aims at the sphere if its radius is 0, and none enters by this aim if it is about as large as the
+/// scene.
 typedef struct WalkAim {
     Vec3 center;
     float radius;  // m

@@ -246,6 +246,42 @@ TEST_F(LightEmissionTest, AimedWalksBringTheSameLightEverywhere) {
     });
 }
 
+/// A plain of 8 × 8 in the middle of a dome that shines everywhere, and a round lamp far above it. What each
+/// square metre receives from the dome is π; the lamp of radiance L and radius r brings π·L·(r/d)²·cosθ.
+Scene plain_in_dome() {
+    Scene scene;
+    add_quad(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, add_material(scene, lambertian({0.5f, 0.5f, 0.5f})));
+    Material shining = lambertian({0, 0, 0});
+    shining.emission = parameter_of(Vec3{1, 1, 1});
+    add_inward_sphere(scene, 60, 2, add_material(scene, shining));
+    add_sphere_lamp(scene, {0, 40, 0}, 2, {400, 400, 400});
+    return scene;
+}
+/// The lamp hides (r/d)² of the dome at right angles, where that would have brought π.
+const double kDomeIrradiance = kPi + kPi * 399 * (2.0 / 40) * (2.0 / 40);
+
+/// Walks from lamps that are far from what the camera sees aim there, and bring the same light to every
+/// place. Over the plain the lamp's light falls by less than a hundredth.
+TEST_F(LightEmissionTest, AimedWalksOfFarLampsBringTheSameLightEverywhere) {
+    const Vec3 center{1, 0, -1};
+    const LightWalks walks{
+        .walk_count = 100'000, .bounce_count = 1, .seed = 10, .aim = test::aim_at(center, 2.0f)};
+    on_each_ray_tree([&](Device& device) {
+        const std::vector<Vpl> vpls = trace_all(device, plain_in_dome(), walks);
+        const auto expect_all = [&](float inner, float outer, double tolerance) {
+            const double expected = 0.5 * kDomeIrradiance * kPi * (outer * outer - inner * inner);
+            EXPECT_NEAR(power_within(vpls, center, inner, outer), expected, tolerance * expected)
+                << "from " << inner << " to " << outer;
+        };
+        expect_all(0, 1, 0.03);
+        expect_all(1, 2, 0.03);
+        expect_all(2, 3, 0.03);
+        const LightWalks spread{.walk_count = walks.walk_count, .bounce_count = 1, .seed = 10};
+        const std::size_t by_chance = trace_all(device, plain_in_dome(), spread).size();
+        EXPECT_GT(vpls.size(), 50 * by_chance);
+    });
+}
+
 /// Walks aim at openings if they come from their outer side.
 TEST_F(LightEmissionTest, WalksThroughOpeningsBringTheSameLightEverywhere) {
     LightWalks walks{.walk_count = 200'000, .bounce_count = 1, .seed = 10};

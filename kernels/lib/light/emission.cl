@@ -3,12 +3,12 @@
 #ifndef NEARLIGHT_LIB_LIGHT_EMISSION
 #define NEARLIGHT_LIB_LIGHT_EMISSION
 
+#include "lib/aim_cone.cl"
 #include "lib/light/choice.cl"
 #include "lib/light/delta.cl"
 #include "lib/light/environment.cl"
 #include "lib/light/triangle.cl"
 #include "lib/outlined.cl"
-#include "lib/walk_aim.cl"
 
 /// A particle that leaves a light.
 typedef struct EmittedParticle {
@@ -18,32 +18,72 @@ typedef struct EmittedParticle {
     uint from_delta;  // 1: from a light that no path can hit
 } EmittedParticle;
 
-static inline EmittedParticle emit_from_triangle(const SceneView* scene, const global Emitter* emitter,
-                                                 float2 u_position, float2 u_direction) {
+/// A direction in which light leaves a point of a surface that emits the same radiance in all directions.
+typedef struct EmittedDirection {
+    float3 direction;
+    float solid_angle;  // the cosine over the density of the direction, sr
+} EmittedDirection;
+
+/// A direction from x, on a surface with this normal: by the cosine, or about one of the targets that are far
+/// from x, such as a room in the middle of a dome that lights it. The density is that of all ways together
+/// (the balance heuristic).
+static inline EmittedDirection sample_emitted_direction(const WalkAim* aim, float3 x, float3 normal,
+                                                        float2 u) {
+    const AimParts parts = divide_aim(aim, targets_for_surface(aim, x, normal));
+    float number = u.x;
+    const uint chosen = choose_aim_target(&parts, aim_target_count(aim), &number);
+    EmittedDirection emitted;
+    if (chosen == NO_AIM_TARGET) {
+        emitted.direction = to_world_frame(square_to_cosine_hemisphere((float2)(number, u.y)), normal);
+    } else {
+        const AimTarget target = aim_target(aim, chosen);
+        const AimCone cone = aim_cone(&target, x);
+        const bool towards = number < PART_TOWARDS;
+        const float rest = towards ? number / PART_TOWARDS : (number - PART_TOWARDS) / (1.0f - PART_TOWARDS);
+        emitted.direction = aim_cone_sample(&cone, number, (float2)(rest, u.y));
+    }
+    if (parts.sum == 0.0f) {
+        emitted.solid_angle = M_PI_F;
+        return emitted;
+    }
+    const float cosine = fmax(dot(emitted.direction, normal), 0.0f);
+    const float pdf = (1.0f - parts.sum) * cosine * M_1_PI_F + aim_pdf(aim, &parts, x, emitted.direction);
+    emitted.solid_angle = cosine > 0.0f ? cosine / pdf : 0.0f;
+    return emitted;
+}
+
+static inline EmittedParticle emit_from_triangle(const SceneView* scene, const WalkAim* aim,
+                                                 const global Emitter* emitter, float2 u_position,
+                                                 float2 u_direction) {
     EmittedParticle particle;
     float3 normal;
     const float2 place = square_to_triangle(u_position);
     const float3 point = triangle_point(scene, emitter->triangle, place, &normal);
+    const EmittedDirection emitted = sample_emitted_direction(aim, point, normal, u_direction);
     particle.origin = offset_point(scene, point, normal);
-    particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
-    particle.flux = triangle_radiance(scene, emitter->triangle, place) * (M_PI_F * emitter->area);
+    particle.direction = emitted.direction;
+    particle.flux =
+        triangle_radiance(scene, emitter->triangle, place) * (emitted.solid_angle * emitter->area);
     particle.from_delta = 0;
     return particle;
 }
 
 /// A particle of a uniform point of a sphere or cylinder, which starts where it leaves the last of the
 /// light's triangles behind.
-static inline EmittedParticle emit_from_round_light(const SceneView* scene, const global Emitter* emitter,
-                                                    float2 u_position, float2 u_direction) {
+static inline EmittedParticle emit_from_round_light(const SceneView* scene, const WalkAim* aim,
+                                                    const global Emitter* emitter, float2 u_position,
+                                                    float2 u_direction) {
     const bool is_sphere = emitter->type == NEARLIGHT_EMITTER_SPHERE;
     const float3 axis = load3(emitter->direction);
     const float3 normal = is_sphere ? square_to_cap(u_position, 2.0f)
                                     : to_world_frame((float3)(circle_point(u_position.y), 0.0f), axis);
     const float3 center =
         load3(emitter->position) + (is_sphere ? (float3)(0.0f) : u_position.x * emitter->length * axis);
-    EmittedParticle particle;
-    particle.direction = to_world_frame(square_to_cosine_hemisphere(u_direction), normal);
     const float radius = emitter->radius;
+    const EmittedDirection emitted =
+        sample_emitted_direction(aim, center + radius * normal, normal, u_direction);
+    EmittedParticle particle;
+    particle.direction = emitted.direction;
     const float outer = emitter->outer_radius;
     const float along = is_sphere ? 0.0f : dot(particle.direction, axis);
     const float rise = radius * dot(normal, particle.direction);
@@ -52,7 +92,7 @@ static inline EmittedParticle emit_from_round_light(const SceneView* scene, cons
     const float3 exit = radius * normal + way * particle.direction;
     const float3 outwards = (exit - way * along * axis) / outer;
     particle.origin = offset_point(scene, center + exit, outwards);
-    particle.flux = load3(emitter->radiance) * (M_PI_F * emitter->area);
+    particle.flux = load3(emitter->radiance) * (emitted.solid_angle * emitter->area);
     particle.from_delta = 0;
     return particle;
 }
@@ -216,9 +256,9 @@ OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* ai
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice);
     EmittedParticle particle;
     if (emitter->type == NEARLIGHT_EMITTER_TRIANGLE) {
-        particle = emit_from_triangle(scene, emitter, u_position, u_direction);
+        particle = emit_from_triangle(scene, aim, emitter, u_position, u_direction);
     } else if (is_area_light(emitter)) {
-        particle = emit_from_round_light(scene, emitter, u_position, u_direction);
+        particle = emit_from_round_light(scene, aim, emitter, u_position, u_direction);
     } else if (is_distant(emitter)) {
         particle = emit_from_environment(scene, aim, emitter->type == NEARLIGHT_EMITTER_SUN, u_position,
                                          u_direction);
