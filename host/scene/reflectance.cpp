@@ -2,8 +2,10 @@
 #include "host/scene/reflectance.h"
 
 #include <algorithm>
+#include <span>
 
 #include "host/scene/material_model.h"
+#include "host/scene/transmission_curve.h"
 
 namespace nearlight::core {
 namespace {
@@ -39,15 +41,9 @@ Vec3 expectation(const Scene& scene, const Material& material, float u, float v,
                                                   : of_child(0);
 }
 
-/// 2 ∫ T(c) c dc of a transmission curve.
-float mean_transmission(const Scene& scene, uint curve) {
-    const float* row = scene.transmission_curves.data() + std::size_t{curve} * NEARLIGHT_CURVE_SIZE;
-    float sum = 0.0f;
-    for (int i = 0; i + 1 < NEARLIGHT_CURVE_SIZE; ++i) {
-        const auto at = static_cast<float>(i);
-        sum += row[i] * (3.0f * at + 1.0f) + row[i + 1] * (3.0f * at + 2.0f);
-    }
-    return sum / 3.0f / static_cast<float>((NEARLIGHT_CURVE_SIZE - 1) * (NEARLIGHT_CURVE_SIZE - 1));
+float mean_of_curve(const Scene& scene, uint curve) {
+    return mean_transmission(std::span(scene.transmission_curves)
+                                 .subspan(std::size_t{curve} * NEARLIGHT_CURVE_SIZE, NEARLIGHT_CURVE_SIZE));
 }
 
 /// The parameters of one material at a point.
@@ -94,7 +90,7 @@ Vec3 base_color(const Point& at) {
 }
 
 Vec3 base_albedo(const Point& at) {
-    const float transmission = mean_transmission(at.scene, at.material.curve);
+    const float transmission = mean_of_curve(at.scene, at.material.curve);
     return base_color(at) * (transmission * transmission);
 }
 
@@ -110,7 +106,7 @@ Vec3 total_reflectance(const Point& at) {
     const Material& m = at.material;
     switch (m.model) {
         case NEARLIGHT_BSDF_PLASTIC:
-            return base_albedo(at) + at.color(m.specular) * (1.0f - mean_transmission(at.scene, m.curve));
+            return base_albedo(at) + at.color(m.specular) * (1.0f - mean_of_curve(at.scene, m.curve));
         case NEARLIGHT_BSDF_CONDUCTOR:
             return at.color(m.specular) * mean_metal(m);
         case NEARLIGHT_BSDF_PHONG:  // a narrow lobe reflects the cosine of its direction

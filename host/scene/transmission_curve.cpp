@@ -223,6 +223,26 @@ TransmissionCurve make_table(const Value& value) {
     return curve;
 }
 
+/// What sheen 1 reflects of light that comes in at this cosine: ∫ (1 − ωi·m)⁵ cosθi dωi, with m halfway
+/// between the directions [Burley 2012], by the rule of the midpoints.
+double sheen_albedo(double cosine) {
+    constexpr int kHeights = 32;
+    constexpr int kAngles = 32;
+    const Direction from{std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
+    double sum = 0.0;
+    for (int i = 0; i < kHeights; ++i) {
+        const double height = std::sqrt((i + 0.5) / kHeights);  // cosine-distributed
+        const double sine = std::sqrt(1.0 - height * height);
+        for (int k = 0; k < kAngles; ++k) {
+            const double angle = std::numbers::pi * (k + 0.5) / kAngles;
+            const double between = from.x * sine * std::cos(angle) + from.z * height;
+            // The half vector makes half the angle between the directions with either.
+            sum += std::pow(1.0 - std::sqrt(0.5 * (1.0 + between)), 5);
+        }
+    }
+    return std::numbers::pi * sum / (kHeights * kAngles);
+}
+
 /// The nodes along each side of the square, as many as Mitsuba has, for light that comes in where eta is the
 /// index beyond the coat ÷ that before it.
 int resolution(double eta) {
@@ -267,6 +287,36 @@ TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann) {
 
 TransmissionCurve principled_curve() {
     return make_curve([](double cosine) { return 1.0 - 0.5 * std::pow(1.0 - cosine, 5); });
+}
+
+TransmissionCurve layered_curve(const Layers& layers) {
+    constexpr int kNodes = 64;
+    const double alpha = layers.roughness * layers.roughness;
+    const Microfacets microfacets(std::max(alpha, static_cast<double>(NEARLIGHT_MIN_ALPHA)), false, kNodes);
+    TransmissionCurve curve = make_table([&](double cosine) {
+        const double facets =
+            microfacets.mean(std::max(cosine, kMinCosine), [&](const Direction& view, const Direction& m) {
+                return reflected(microfacets, layers.eta, view, m);
+            });
+        // Disney's clearcoat is not divided by the cosines, so that it fades towards the horizon.
+        const double coat =
+            layers.clearcoat * std::lerp(std::pow(1.0 - cosine, 5), 1.0, 0.04) * cosine * cosine;
+        return std::max(1.0 - facets - coat - layers.sheen * sheen_albedo(cosine), 0.0);
+    });
+    const float scale = 1.0f / std::sqrt(std::max(mean_transmission(curve), 1e-3f));
+    for (float& value : curve) {
+        value *= scale;
+    }
+    return curve;
+}
+
+float mean_transmission(std::span<const float> curve) {
+    float sum = 0.0f;
+    for (int i = 0; i + 1 < NEARLIGHT_CURVE_SIZE; ++i) {
+        const auto at = static_cast<float>(i);
+        sum += curve[i] * (3.0f * at + 1.0f) + curve[i + 1] * (3.0f * at + 2.0f);
+    }
+    return sum / 3.0f / static_cast<float>((NEARLIGHT_CURVE_SIZE - 1) * (NEARLIGHT_CURVE_SIZE - 1));
 }
 
 double smooth_internal_reflectance(double eta) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "host/scene/scene.h"
 
@@ -22,6 +23,23 @@ TransmissionCurve smooth_coat_curve(double eta);
 TransmissionCurve rough_coat_curve(double eta, double alpha, bool beckmann);
 /// 1 − ½(1 − c)⁵ [Burley 2012].
 TransmissionCurve principled_curve();
+
+/// What lies over the base of a principled material.
+struct Layers {
+    double eta = 1.5;        ///< index of the facets' dielectric, at least 1
+    double roughness = 0.5;  ///< of the facets, the root of α
+    double clearcoat = 0;
+    double sheen = 0;
+
+    auto operator<=>(const Layers&) const = default;
+};
+/// What the layers do not reflect at each cosine, divided by the root of its mean. A base of albedo 1 with
+/// this T on both ends reflects all that the layers leave [as Ashikhmin & Shirley, An Anisotropic Phong BRDF
+/// Model, 2000, couple a base and its coat].
+TransmissionCurve layered_curve(const Layers& layers);
+
+/// 2 ∫ T(c) c dc of a curve.
+float mean_transmission(std::span<const float> curve);
 
 /// The mean reflectance of a smooth coat from inside, by the fits that Mitsuba's `plastic` uses.
 double smooth_internal_reflectance(double eta);

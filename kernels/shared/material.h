@@ -51,6 +51,9 @@ typedef struct Parameter {
 // for, when it uploads a scene.
 #define NEARLIGHT_MATERIAL_DIFFUSE_FRONT 16u
 #define NEARLIGHT_MATERIAL_DIFFUSE_BACK 32u
+// principled: the base gets what its facets, clearcoat and sheen do not reflect, by the material's curve, and
+// has no retro-reflection of its own
+#define NEARLIGHT_MATERIAL_LAYERED 128u
 #define NEARLIGHT_MATERIAL_VEIL 64u  // on the device: shadow rays may pass it straight (lib/light/shadow.cl)
 
 /// The roughness α below which microfacets count as a smooth surface.

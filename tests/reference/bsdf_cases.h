@@ -9,6 +9,7 @@
 
 #include "host/base/random.h"
 #include "host/reference/bsdf/surface_bsdf.h"
+#include "host/scene/layered_materials.h"
 #include "tests/support/small_scenes.h"
 
 namespace nearlight::core::small_scenes {
@@ -123,6 +124,29 @@ inline std::vector<BsdfCase> glass_cases() {
     return cases;
 }
 
+/// What glTF and MTL files describe: a base below facets, clearcoat and sheen.
+inline std::vector<BsdfCase> layered_cases() {
+    std::vector<BsdfCase> cases;
+    const auto add = [&](const std::string& name, const Layers& layers, float metallic) {
+        cases.push_back(bsdf_case(name, [&](Scene& scene) {
+            Material material = LayeredMaterials().of(scene, layers);
+            material.roughness = parameter_of(static_cast<float>(layers.roughness));
+            material.clearcoat = parameter_of(static_cast<float>(layers.clearcoat));
+            material.clearcoat_gloss = parameter_of(0.5f);
+            material.sheen = parameter_of(static_cast<float>(layers.sheen));
+            material.metallic = parameter_of(metallic);
+            return material;
+        }));
+    };
+    add("layered white", {.roughness = 0.5}, 0.0f);
+    add("layered white matt", {.roughness = 1}, 0.0f);
+    add("layered white dense", {.eta = 3, .roughness = 0.25}, 0.0f);
+    add("layered half metal", {.roughness = 0.5}, 0.5f);
+    add("layered white coated", {.roughness = 0.75, .clearcoat = 1}, 0.0f);
+    add("layered white fabric", {.roughness = 0.75, .sheen = 1}, 0.0f);
+    return cases;
+}
+
 inline std::vector<BsdfCase> principled_cases() {
     std::vector<BsdfCase> cases;
     const auto add = [&](const std::string& name, float roughness, bool conserves, const auto& change) {
@@ -160,7 +184,7 @@ inline std::vector<BsdfCase> principled_cases() {
 
 inline std::vector<BsdfCase> all_bsdf_cases() {
     std::vector<BsdfCase> cases = opaque_cases();
-    for (const auto& more : {glass_cases(), principled_cases()}) {
+    for (const auto& more : {glass_cases(), principled_cases(), layered_cases()}) {
         cases.insert(cases.end(), more.begin(), more.end());
     }
     return cases;

@@ -142,7 +142,8 @@ TEST_F(GltfLook, SpecularGlossinessIsConverted) {
                                                         {"specularFactor", {0.04, 0.04, 0.04}},
                                                         {"glossinessFactor", 0.75}};
     const Material dielectric = innermost(load());
-    expect_close(dielectric.reflectance.value, {0.1f, 0.2f, 0.3f});
+    // What is reflected is taken from the diffuse colour.
+    expect_close(dielectric.reflectance.value, {0.096f, 0.192f, 0.288f});
     EXPECT_NEAR(dielectric.eta.x, 1.5f, 1e-5f);
     EXPECT_FLOAT_EQ(dielectric.roughness.value.x, 0.25f);
     extension("KHR_materials_pbrSpecularGlossiness")["specularFactor"] = {0.9, 0.6, 0.3};
@@ -152,6 +153,11 @@ TEST_F(GltfLook, SpecularGlossinessIsConverted) {
     extension("KHR_materials_pbrSpecularGlossiness")["specularGlossinessTexture"] = {{"index", 0}};
     const Scene textured = load();
     EXPECT_NEAR(parameter_value(textured, innermost(textured).roughness, 0.5f, 0.5f).x, 1 - 0.375f, 1e-3f);
+    extension("KHR_materials_pbrSpecularGlossiness") = json::object();  // all is 1: a mirror
+    const Material mirror = innermost(load());
+    EXPECT_EQ(mirror.metallic.value.x, 1.0f);
+    EXPECT_EQ(mirror.roughness.value.x, 0.0f);
+    expect_close(mirror.reflectance.value, {1, 1, 1});
 }
 
 TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {

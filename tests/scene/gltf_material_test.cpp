@@ -37,6 +37,7 @@ TEST_F(GltfLoader, Materials) {
 
     pbr["roughnessFactor"] = 0.3;
     EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_EQ(side_of(load()).flags & NEARLIGHT_MATERIAL_LAYERED, NEARLIGHT_MATERIAL_LAYERED);
     EXPECT_FLOAT_EQ(side_of(load()).roughness.value.x, 0.3f);
     EXPECT_FLOAT_EQ(side_of(load()).eta.x, 1.5f);
     gltf_.material()["extensions"] = {{"KHR_materials_ior", {{"ior", 1.33}}}};

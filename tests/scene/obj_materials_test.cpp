@@ -264,6 +264,7 @@ TEST(Obj, BlendersMetalAndPlastic) {
     EXPECT_FLOAT_EQ(metal.metallic.value.x, 0.9f);
     const Material plastic = material("Ns 1000\nKa 1 1 1\nKd 1 1 1\nKs 0.5 0.5 0.5\nNi 1.45\nillum 2\n");
     EXPECT_EQ(plastic.model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_EQ(plastic.flags & NEARLIGHT_MATERIAL_LAYERED, NEARLIGHT_MATERIAL_LAYERED);
     EXPECT_FLOAT_EQ(plastic.roughness.value.x, 0.0f);
     EXPECT_FLOAT_EQ(plastic.metallic.value.x, 0.0f);
     EXPECT_FLOAT_EQ(plastic.eta.x, 1.45f);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/scene/layered_materials.h"
 #include "host/scene/material_model.h"
 #include "tests/support/error_matchers.h"
 
@@ -93,6 +94,28 @@ TEST(TransmissionCurve, PrincipledHalvesGrazingLight) {
     EXPECT_EQ(principled_material(scene, 1.5).curve, 1u);
     EXPECT_EQ(principled_material(scene, 1.8).curve, 1u);  // equal rows are shared
     EXPECT_EQ(scene.transmission_curves.size(), 2u * NEARLIGHT_CURVE_SIZE);
+}
+
+/// What a base of albedo 1 reflects below a smooth surface is all that the surface lets through.
+TEST(TransmissionCurve, ABaseGetsWhatItsLayersLeave) {
+    const TransmissionCurve layered = layered_curve({.eta = 1.5, .roughness = 0});
+    const TransmissionCurve smooth = smooth_coat_curve(1.5);
+    for (std::size_t i = 16; i < smooth.size(); i += 4) {  // between these the curve is linear
+        EXPECT_NEAR(layered[i] * mean_transmission(layered), smooth[i], 2e-3f) << i;
+    }
+    const auto base = [](const Layers& layers) { return mean_transmission(layered_curve(layers)); };
+    EXPECT_LT(base({.eta = 1.8}), base({.eta = 1.5}));
+    EXPECT_LT(base({.clearcoat = 1}), base({}));
+    EXPECT_LT(base({.sheen = 1}), base({}));
+}
+
+TEST(TransmissionCurve, LayersThatAreNearlyAlikeShareACurve) {
+    Scene scene;
+    LayeredMaterials materials;
+    const uint curve = materials.of(scene, {.roughness = 0.5}).curve;
+    EXPECT_EQ(materials.of(scene, {.roughness = 0.503}).curve, curve);
+    EXPECT_NE(materials.of(scene, {.roughness = 0.55}).curve, curve);
+    EXPECT_NE(materials.of(scene, {.eta = 1.6, .roughness = 0.5}).curve, curve);
 }
 
 TEST(TransmissionCurve, RowZeroIsAllOnes) {

@@ -114,7 +114,7 @@ double chi2_deviation(const Cells& cells, const Drawn& drawn, double error = 0) 
 /// Whether a viewer behind the surface sees nothing.
 bool is_opaque(const Material& material) {
     return material.model <= NEARLIGHT_BSDF_CONDUCTOR || material.model == NEARLIGHT_BSDF_PHONG ||
-           material.model == NEARLIGHT_BSDF_WARD;
+           material.model == NEARLIGHT_BSDF_WARD || (material.flags & NEARLIGHT_MATERIAL_LAYERED) != 0;
 }
 
 bool has_diffuse_part(const Material& material) {

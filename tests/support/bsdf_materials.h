@@ -4,15 +4,22 @@
 
 #include <map>
 
+#include "host/scene/transmission_curve.h"
 #include "tests/support/bsdf_probe.h"
 
 namespace nearlight::core::test {
 
 inline constexpr Vec3 kBase{0.8f, 0.4f, 0.2f};
 
-/// T = 1 − Schlick's weight / 2 as row 1 and the transmittance of a smooth boundary of index 1.5 as row 2.
+/// What make_layered() has over its base.
+inline constexpr Layers kLayers{.eta = 1.5, .roughness = 0.6, .clearcoat = 0.8, .sheen = 0.5};
+
+/// T = 1 − Schlick's weight / 2 as row 1, the transmittance of a smooth boundary of index 1.5 as row 2, and
+/// that of kLayers as row 3.
 inline std::vector<float> make_curves() {
     std::vector<float> curves(3 * NEARLIGHT_CURVE_SIZE, 1.0f);
+    const TransmissionCurve layered = layered_curve(kLayers);
+    curves.insert(curves.end(), layered.begin(), layered.end());
     for (int i = 0; i < NEARLIGHT_CURVE_SIZE; ++i) {
         const double c = i / (NEARLIGHT_CURVE_SIZE - 1.0);
         const double far = std::sqrt(1 - (1 - c * c) / (1.5 * 1.5));
@@ -97,6 +104,17 @@ inline Material make_principled(uint flags) {
     return material;
 }
 
+inline Material make_layered(Vec3 base) {
+    Material material = make_material(NEARLIGHT_BSDF_PRINCIPLED);
+    material.flags = NEARLIGHT_MATERIAL_LAYERED;
+    material.curve = 3;
+    material.reflectance = constant(base);
+    material.roughness = constant(static_cast<float>(kLayers.roughness));
+    material.clearcoat = constant(static_cast<float>(kLayers.clearcoat));
+    material.sheen = constant(static_cast<float>(kLayers.sheen));
+    return material;
+}
+
 inline std::map<std::string, Material> make_materials() {
     constexpr uint kBeckmann = NEARLIGHT_MATERIAL_BECKMANN;
     const Vec3 eta{0.2f, 0.92f, 1.1f};
@@ -119,6 +137,8 @@ inline std::map<std::string, Material> make_materials() {
     materials["ward anisotropic"] = make_lobe(NEARLIGHT_BSDF_WARD, 0.1f, 0.4f);
     materials["principled"] = make_principled(0);
     materials["principled_thin"] = make_principled(NEARLIGHT_MATERIAL_THIN);
+    materials["layered"] = make_layered(kBase);
+    materials["white layered"] = make_layered({1, 1, 1});
     materials["principled bubble"] = make_principled(0);
     materials["principled bubble"].eta = {0.8f, 0.8f, 0.8f};
     materials["principled of index 1"] = make_principled(0);

@@ -47,8 +47,9 @@ double base_transmittance(const BsdfParameters& parameters, double cosine) {
         case NEARLIGHT_BSDF_PLASTIC:
             return is_smooth(parameters) ? 1 - fresnel_of_dielectric(cosine, parameters.eta.x)
                                          : interpolated(parameters.curve, cosine);
-        case NEARLIGHT_BSDF_PRINCIPLED:
-            return 1 - 0.5 * schlick_weight(cosine);  // [Burley 2012, section 5.3], without retro-reflection
+        case NEARLIGHT_BSDF_PRINCIPLED:  // [Burley 2012, section 5.3], without retro-reflection
+            return parameters.layered ? interpolated(parameters.curve, cosine)
+                                      : 1 - 0.5 * schlick_weight(cosine);
         default:
             return 1;
     }

@@ -16,6 +16,7 @@ struct BsdfParameters {
     uint model = NEARLIGHT_BSDF_DIFFUSE;  ///< none of those that stand for others
     bool beckmann = false;
     bool thin = false;
+    bool layered = false;             ///< principled: NEARLIGHT_MATERIAL_LAYERED
     bool front = true;                ///< the viewer is on the front (outer) side
     Vec3d diffuse;                    ///< D = diffuse/π · T(cosθo) · T(cosθi), see base_transmittance()
     Vec3d base;                       ///< principled: colour of the base
@@ -28,7 +29,7 @@ struct BsdfParameters {
     Vec3d k;  ///< conductor: imaginary index
     double metallic = 0, anisotropic = 0, spec_trans = 0, spec_tint = 0, sheen = 0, sheen_tint = 0,
            flatness = 0, clearcoat = 0, clearcoat_gloss = 0;
-    std::span<const float> curve;  ///< rough plastic: T at equidistant cosines from 0 to 1
+    std::span<const float> curve;  ///< rough plastic, layered: T at equidistant cosines from 0 to 1
 };
 
 /// Uniform random numbers in [0, 1) for the choice of a lobe and of a direction in it.

@@ -126,6 +126,7 @@ BsdfParameters bsdf_parameters(const Scene& scene, const Surface& surface, const
     }
     p.beckmann = (material.flags & NEARLIGHT_MATERIAL_BECKMANN) != 0u;
     p.thin = (material.flags & NEARLIGHT_MATERIAL_THIN) != 0u;
+    p.layered = (material.flags & NEARLIGHT_MATERIAL_LAYERED) != 0u;
     p.specular = at.color(material.specular);
     p.transmission = at.color(material.transmission);
     const Vec3d roughness = at.numbers(material.roughness);

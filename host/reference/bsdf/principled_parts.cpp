@@ -24,7 +24,7 @@ double principled_retro(const BsdfParameters& p, Vec3d wo, Vec3d wi) {
     const double light = schlick_weight(wi.z);
     const double difference = dot(half_vector(wo, wi), wi);
     const double rr = 2 * p.alpha_x * difference * difference;
-    const double retro = rr * (view + light + view * light * (rr - 1));
+    const double retro = p.layered ? 0 : rr * (view + light + view * light * (rr - 1));
     if (p.flatness == 0) {
         return retro;
     }

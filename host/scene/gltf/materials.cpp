@@ -83,7 +83,11 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
         base.reflectance = surface.color;
         return add_two_sided(scene_, base);
     }
-    Material material = principled_material(scene_, surface.index);
+    Material material =
+        layered_.of(scene_, {.eta = surface.index,
+                             .roughness = static_cast<double>(mean_value(scene_, surface.roughness).x),
+                             .clearcoat = static_cast<double>(mean_value(scene_, surface.clearcoat).x),
+                             .sheen = static_cast<double>(mean_value(scene_, surface.sheen).x)});
     material.reflectance = surface.color;
     material.metallic = surface.metallic;
     material.roughness = surface.stretched_roughness;

@@ -8,6 +8,7 @@
 
 #include "host/scene/gltf/surface_model.h"
 #include "host/scene/gltf/textures.h"
+#include "host/scene/layered_materials.h"
 
 namespace nearlight::core::gltf {
 
@@ -70,6 +71,7 @@ class MaterialMaker {
     Scene& scene_;
     NoteSink& notes_;
     TextureMaker textures_;
+    LayeredMaterials layered_;
     std::map<MaterialUse, uint> made_;
     std::map<uint, uint> backs_;  ///< by the materials of the fronts
 };

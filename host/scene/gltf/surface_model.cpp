@@ -185,8 +185,9 @@ void read_reflections(const tinygltf::Material& source, const SurfaceContext& co
                         : kMinIndex;
 }
 
-/// Metalness and roughness of materials that are given by the colour of their reflections. Those that reflect
-/// more than any dielectric and more than they scatter are taken for metals.
+/// Metalness and roughness of materials that are given by the colour of their reflections, which take from
+/// the diffuse colour as much as their brightest channel has. Those that reflect more than any dielectric and
+/// more than they scatter are taken for metals.
 void read_specular_glossiness(const tinygltf::Material& source, const SurfaceContext& context,
                               SurfaceModel& surface) {
     context.approximate(std::string(kSpecularGlossiness) + " is converted to metalness and roughness");
@@ -202,7 +203,9 @@ void read_specular_glossiness(const tinygltf::Material& source, const SurfaceCon
             ? parameter_of(grey(1.0 - static_cast<double>(glossiness)))
             : context.textures.textured_by(
                   texture, {1, 1, 1}, {.channel = 3, .is_inverse = true, .factor = glossiness}, context.sets);
-    const float mean = luminance(context.textures.mean(reflected));
+    const Vec3 mean_reflected = context.textures.mean(reflected);
+    surface.color.value = surface.color.value * (1.0f - std::min(max_component(mean_reflected), 1.0f));
+    const float mean = luminance(mean_reflected);
     const bool is_metal = mean > 0.25f && mean > luminance(context.textures.mean(surface.color));
     surface.metallic = parameter_of(is_metal ? 1.0f : 0.0f);
     if (is_metal) {
@@ -306,9 +309,8 @@ void read_layers(const tinygltf::Material& source, const SurfaceContext& context
         std::clamp(number_of(source.extensions, kCoat, "clearcoatRoughnessFactor", 0), 0.0, 1.0);
     if (source.extensions.contains(kCoat) && surface.clearcoat.value.x > 0.0f) {
         context.approximate(
-            "KHR_materials_clearcoat: the coat reflects a quarter as much, evenly smooth and without a "
-            "normal "
-            "map of its own");
+            "KHR_materials_clearcoat: the coat reflects less at grazing angles, evenly smooth and without a "
+            "normal map of its own");
     }
     const Vec3 sheen = clamped(color_of(source.extensions, kSheen, "sheenColorFactor", {0, 0, 0}));
     surface.sheen = parameter_of(luminance(sheen));

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "host/scene/layered_materials.h"
 #include "host/scene/material_model.h"
 #include "host/scene/model_scene.h"
 #include "host/scene/obj/mtl_entry.h"
@@ -164,12 +165,20 @@ class ObjMaterials {
         return parameter;
     }
 
+    Material layered(const tinyobj::material_t& entry, const Parameter& roughness) {
+        Material material = layered_.of(
+            scene_,
+            {.eta = index_of(entry), .roughness = static_cast<double>(mean_value(scene_, roughness).x)});
+        material.roughness = roughness;
+        return material;
+    }
+
     Material principled(const MaterialSource& source) {
         const tinyobj::material_t& entry = source.entry;
-        Material material = principled_material(scene_, index_of(entry));
-        material.reflectance = diffuse(source).reflectance;
-        material.roughness =
+        const Parameter roughness =
             number_of(source, entry.roughness, {entry.roughness_texname, entry.roughness_texopt, "map_Pr"});
+        Material material = layered(entry, roughness);
+        material.reflectance = diffuse(source).reflectance;
         material.metallic =
             number_of(source, entry.metallic, {entry.metallic_texname, entry.metallic_texopt, "map_Pm"});
         return material;
@@ -177,10 +186,10 @@ class ObjMaterials {
 
     /// What Blender's exporter writes of its principled material in the words of an older model.
     Material blenders_principled(const MaterialSource& source) {
-        Material material = principled_material(scene_, index_of(source.entry));
+        Material material = layered(
+            source.entry,
+            parameter_of(blenders_roughness(source.entry.shininess, source.library.blenders_exponent)));
         material.reflectance = diffuse(source).reflectance;
-        material.roughness =
-            parameter_of(blenders_roughness(source.entry.shininess, source.library.blenders_exponent));
         material.metallic = parameter_of(blenders_metalness(source.entry));
         return material;
     }
@@ -341,6 +350,7 @@ class ObjMaterials {
     NoteSink& notes_;
     MtlTextures textures_;
     std::map<Coat, Material> coats_;
+    LayeredMaterials layered_;
     bool has_colors_;
     int vertex_color_ = -1;  // the texture that stands for colours of vertices
 };

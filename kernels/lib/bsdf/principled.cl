@@ -7,6 +7,10 @@
 // reflection, fake subsurface scattering (flatness), sheen, clearcoat, facets that reflect and refract, and
 // the light that diffuses through a thin sheet. No term of S is negative. Behind a body there are facets
 // only.
+//
+// Disney's base reflects as much below facets as without them, so that a white body reflects more than it
+// gets. NEARLIGHT_MATERIAL_LAYERED stands for the model of other formats, in which the base gets what its
+// facets let through: the curve is another one, and there is no retro-reflection.
 #ifndef NEARLIGHT_LIB_BSDF_PRINCIPLED
 #define NEARLIGHT_LIB_BSDF_PRINCIPLED
 
@@ -39,6 +43,10 @@ static inline bool is_thin(const Bsdf* bsdf) {
     return bsdf->flags & NEARLIGHT_MATERIAL_THIN;
 }
 
+static inline bool is_layered(const Bsdf* bsdf) {
+    return bsdf->flags & NEARLIGHT_MATERIAL_LAYERED;
+}
+
 /// What light loses in roughness as it passes through a thin sheet [Burley 2015, figure 15].
 static inline float thin_roughness_scale(const Bsdf* bsdf) {
     return 0.65f * bsdf->eta.x - 0.35f;
@@ -56,7 +64,8 @@ static inline PrincipledWays principled_ways(const Bsdf* bsdf) {
     const bool thin = is_thin(bsdf);
     const float rest = (thin ? 1.0f : 1.0f - bsdf->metallic) * (1.0f - bsdf->spec_trans);
     const float through = thin ? bsdf->transmission.x : 0.0f;
-    const float soft = 0.5f * (0.5f * bsdf->alpha.x + bsdf->flatness + 0.5f * bsdf->sheen);
+    const float retro = is_layered(bsdf) ? 0.0f : 0.5f * bsdf->alpha.x;
+    const float soft = 0.5f * (retro + bsdf->flatness + 0.5f * bsdf->sheen);
     PrincipledWays ways;
     ways.facets = thin ? bsdf->spec_trans : 1.0f;
     ways.clearcoat = thin ? 0.0f : 0.25f * bsdf->clearcoat;
@@ -136,7 +145,7 @@ static inline float3 soft_reflection(const Bsdf* bsdf, float3 wo, float3 wi, flo
     const float fi = schlick_weight(wi.z);
     const float cosine = dot(wi, m);
     const float r = 2.0f * bsdf->alpha.x * cosine * cosine;
-    const float retro = r * (fo + fi + fo * fi * (r - 1.0f));
+    const float retro = is_layered(bsdf) ? 0.0f : r * (fo + fi + fo * fi * (r - 1.0f));
     const float bent = mix(1.0f, 0.5f * r, fi) * mix(1.0f, 0.5f * r, fo);
     const float subsurface = 1.25f * (bent * (1.0f / (wo.z + wi.z) - 0.5f) + 0.5f);
     const float3 sheen =
@@ -283,7 +292,7 @@ static inline float3 principled_albedo(const Bsdf* bsdf, float3 wo) {
     }
     const float opaque = 1.0f - bsdf->spec_trans;
     const float share = thin ? opaque * (1.0f - bsdf->transmission.x) : opaque * (1.0f - bsdf->metallic);
-    const float soft = mix(0.1f * bsdf->alpha.x, 1.0f, bsdf->flatness);
+    const float soft = mix(is_layered(bsdf) ? 0.0f : 0.1f * bsdf->alpha.x, 1.0f, bsdf->flatness);
     const float3 even = share * (soft * bsdf->base + 0.1f * bsdf->sheen);
     if (thin) {
         return bsdf->spec_trans * fresnel + passes * bsdf->base + even +
