@@ -94,7 +94,7 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
 static inline void set_receiver(const SceneView* scene, const global CloseRange* close_range,
                                 const CameraPath* path, const SurfaceHit* hit, const SurfaceBsdf* surface,
                                 float3 albedo, uint surfaces, CameraReceiver* receiver) {
-    receiver->position = offset_point(scene, hit->position, hit->geometric);
+    receiver->position = off_surface(hit, hit->geometric);
     receiver->normal = surface->frame.n;
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT |
                         sequence_index(path) << NEARLIGHT_RECEIVER_SAMPLE_SHIFT;
@@ -121,7 +121,7 @@ static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sa
 static inline void trace_light(const SceneView* scene, const CameraLimits* limits, const CameraPath* path,
                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
                                uint max_edges, CameraVertex* vertex) {
-    const ReceiverPoint at = receiver_of(offset_point(scene, hit->position, hit->geometric), surface);
+    const ReceiverPoint at = receiver_of(off_surface(hit, hit->geometric), surface);
     const PathLimits ray = {.max_edges = max_edges,
                             .vpl_edges = max_edges,
                             .clamp_radius = INFINITY,

@@ -49,7 +49,7 @@ OUTLINED_ON_CPU CausticLanding follow_caustic(const SceneView* scene, uint walk,
         }
         particle.flux *= sample.weight;
         particle.direction = sample.wi;
-        particle.origin = ray_origin(scene, &at.hit, sample.wi);
+        particle.origin = ray_origin(&at.hit, sample.wi);
     }
     return landing;
 }

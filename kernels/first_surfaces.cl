@@ -27,7 +27,7 @@ static inline SurfaceHit first_seen(const SceneView* scene, const global Camera*
                                     const CameraSample* start) {
     SurfaceHit hit = trace_first(scene, camera, &start->ray);
     for (uint step = 0; hit.t >= 0.0f && is_absent(scene, &hit, start, step); ++step) {
-        const float3 origin = ray_origin(scene, &hit, start->ray.direction);
+        const float3 origin = ray_origin(&hit, start->ray.direction);
         hit = step < MAX_ABSENT ? trace_surface(scene, origin, start->ray.direction, INFINITY) : no_surface();
     }
     return hit;

@@ -55,11 +55,12 @@ kernel void light_visibility(SCENE_PARAMETERS, const global uint* restrict ids, 
     const bool front = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_FRONT) != 0;
     const bool back = (material->flags & NEARLIGHT_MATERIAL_DIFFUSE_BACK) != 0;
     const uint point_count = (uint)clamp(triangle_area(&scene, id) / area_per_point, 1.0f, (float)MAX_POINTS);
+    const float stand_off = triangle_stand_off(&scene, id);
     for (uint i = 0; i < point_count; ++i) {
         float3 normal;
         const float3 point = triangle_point(&scene, id, square_to_triangle(sample_2d(i, 0, key)), &normal);
-        if ((front && point_is_lit(&scene, offset_point(&scene, point, normal), normal, i, key)) ||
-            (back && point_is_lit(&scene, offset_point(&scene, point, -normal), -normal, i, key))) {
+        if ((front && point_is_lit(&scene, point + stand_off * normal, normal, i, key)) ||
+            (back && point_is_lit(&scene, point - stand_off * normal, -normal, i, key))) {
             selected[id] = 1;
             return;
         }

@@ -118,7 +118,7 @@ kernel void local_light_rays(SCENE_PARAMETERS, const global ReceiverPacket* rest
     const SurfaceBsdf surface =
         surface_bsdf(&scene, &hit, direction, BSDF_RADIANCE, sample_2d(index, 1, key).x);
     OrientedPoint light;
-    light.position = offset_point(&scene, hit.position, hit.geometric);
+    light.position = off_surface(&hit, hit.geometric);
     light.normal = hit.geometric;
     const float3 albedo = surface.bsdf.diffuse;
     const float radius = gather_radius(&scene, &params.law, light.position, light.normal);

@@ -39,7 +39,7 @@ kernel void patch_vpls(SCENE_PARAMETERS, const global SurfaceSample* restrict sa
         return;
     }
     // Depth 0 stands for light of all depths.
-    vpls[index] = make_vpl(offset_point(&scene, position, hit.geometric), hit.geometric, surface.frame.n,
+    vpls[index] = make_vpl(off_surface(&hit, hit.geometric), hit.geometric, surface.frame.n,
                            surface.bsdf.curve, 0, NEARLIGHT_VPL_CLOSE | mapped_flag(&surface), power);
     flags[index] = 1;
 }

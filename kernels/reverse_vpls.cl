@@ -40,7 +40,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     const SurfaceBsdf surface =
         surface_bsdf(&scene, &hit, -hit.geometric, BSDF_RADIANCE, sample_2d(ray, 1, seed).x);
     const float3 albedo = surface.bsdf.diffuse;
-    const float3 y = offset_point(&scene, hit.position, hit.geometric);
+    const float3 y = off_surface(&hit, hit.geometric);
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane
     // of y.
     const float height = dot(hit.geometric, origin - y);

@@ -5,7 +5,6 @@
 #include "host/reference/bsdf/surface_bsdf.h"
 #include "host/reference/close_range_oracle.h"
 #include "host/reference/ray_comparison.h"
-#include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
 namespace {
@@ -32,7 +31,7 @@ bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, con
           const Found& found, float extent) {
     const Surface surface = surface_at(scene, hit, ray.direction);
     const float slack = kTolerance * extent;
-    const Vec3 position = stand_off(surface.position, surface.geometric_normal, extent);
+    const Vec3 position = surface.off(surface.geometric_normal, extent);
     const SurfaceBsdf bsdf = bsdf_at(scene, surface, ray);
     const bool is_close = (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) != 0;
     const float cosine = std::max(std::abs(dot(surface.geometric_normal, ray.direction)), 1e-3f);

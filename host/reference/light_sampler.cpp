@@ -42,7 +42,7 @@ LightPick round_pick(const Emitter& emitter, const Seen& seen, Point2 u, float e
     }
     pick.direction = seen.sample(u);
     const Vec3 entry = seen.entry(pick.direction);
-    pick.target = stand_off(entry, seen.outwards(entry), extent);
+    pick.target = stand_off(entry, seen.outwards(entry), extent_about(entry, emitter.radius, extent));
     pick.density = seen.density(pick.direction);
     if (pick.density > 0.0) {
         pick.radiance = emitter.radiance;
@@ -132,7 +132,8 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
         const double distance = length(point - position);
         pick.density = area_density(emitter, distance, -dot(light_normal, pick.direction));
     }
-    pick.target = stand_off(point, light_normal, extent_);
+    pick.target =
+        point + light_normal * triangle_stand_off(corners[0], corners[1], corners[2], extent_);
     if (pick.density > 0.0) {
         const auto [u1, u2] = weights_at(corners, point);
         pick.radiance = emitted_radiance({0.0f, u1, u2, emitter.triangle}, pick.direction);

@@ -2,7 +2,6 @@
 #include "host/reference/path_integrator.h"
 
 #include "host/reference/shadow_ray.h"
-#include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
 namespace {
@@ -74,7 +73,7 @@ bool PathIntegrator::only_diffuse(const Walk& walk) const {
 Vec3 PathIntegrator::beside(const Surface& surface, Vec3 direction) const {
     const bool stays = dot(direction, surface.geometric_normal) > 0.0f;
     const Vec3 side = stays ? surface.geometric_normal : -surface.geometric_normal;
-    return stand_off(surface.position, side, lights_.extent());
+    return surface.off(side, lights_.extent());
 }
 
 // Emission that a ray meets was scattered once less than light sampled at the vertex before.
@@ -128,7 +127,7 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
 
 void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                        const LightRandom& random, PathLight& light) const {
-    const Vec3 position = stand_off(surface.position, surface.geometric_normal, lights_.extent());
+    const Vec3 position = surface.off(surface.geometric_normal, lights_.extent());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
         layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
@@ -180,7 +179,7 @@ void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, con
                                    CameraPath& path) const {
     path.has_receiver = true;
     path.throughput = as_float(walk.throughput);
-    path.receiver = {stand_off(surface.position, surface.geometric_normal, lights_.extent()),
+    path.receiver = {surface.off(surface.geometric_normal, lights_.extent()),
                      as_float(bsdf.normal()), as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
 }
 
@@ -194,7 +193,7 @@ BvhHit PathIntegrator::first_hit(const Ray& ray) const {
             break;
         }
         const float passed = hit.t;
-        const Vec3 behind = stand_off(surface.position, -surface.geometric_normal, lights_.extent());
+        const Vec3 behind = surface.off(-surface.geometric_normal, lights_.extent());
         hit = embree_.closest_hit(behind, ray.direction, 0.0f, kInfinity);
         hit.t += passed;
     }

@@ -5,7 +5,6 @@
 
 #include "host/reference/bsdf/veil.h"
 #include "host/reference/surface.h"
-#include "host/scene/ray_epsilon.h"
 
 namespace nearlight::core {
 
@@ -36,8 +35,7 @@ ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 positio
         }
         // Here a ray would start that left the veil's other side.
         const float cosine = std::abs(dot(surface.geometric_normal, direction));
-        t_min =
-            hit.t + ray_epsilon(surface.position, extent) / std::max(cosine, NEARLIGHT_MIN_GRAZING_COSINE);
+        t_min = hit.t + surface.stand_off(extent) / std::max(cosine, NEARLIGHT_MIN_GRAZING_COSINE);
     }
 }
 

@@ -31,6 +31,7 @@ Surface surface_at(const Scene& scene, const BvhHit& hit, Vec3 direction) {
 
     Surface surface;
     surface.position = a.position * weight_a + b.position * hit.u + c.position * hit.v;
+    surface.corners = {a.position, b.position, c.position};
     surface.u = a.u * weight_a + b.u * hit.u + c.u * hit.v;
     surface.v = a.v * weight_a + b.v * hit.u + c.v * hit.v;
     surface.material = &scene.materials[triangle.material];

@@ -1,24 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a ray that leaves a surface starts from it. Kernels use the same formula.
+// How far a ray that leaves a surface starts from it. Kernels use the same formulas.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/math.h"
 
 namespace nearlight::core {
 
-/// Distance (m) by which a point p on a surface is moved off it: some rounding errors of its coordinates, and
-/// at least those of a point 5 % of `extent` (largest side of the scene's bounds, m) from the origin.
-inline float ray_epsilon(Vec3 p, float extent) {
-    const Vec3 magnitude{std::abs(p.x), std::abs(p.y), std::abs(p.z)};
-    return 2e-5f * std::max(max_component(magnitude), 0.05f * extent);
+inline Vec3 magnitudes(Vec3 v) {
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// The point p moved off its surface along the unit geometric normal, which points to the side on which the
-/// ray continues.
+/// Distance (m) by which a point p is moved off a surface of which nothing else is known: some rounding errors
+/// of its coordinates, and at least those of a point 5 % of `extent` (largest side of the scene's bounds, m)
+/// from the origin.
+inline float ray_epsilon(Vec3 p, float extent) {
+    return 2e-5f * std::max(max_component(magnitudes(p)), 0.05f * extent);
+}
+
+/// The point p moved off its surface by ray_epsilon() along the unit geometric normal, which points to the
+/// side on which the ray continues.
 inline Vec3 stand_off(Vec3 p, Vec3 normal, float extent) {
     return p + normal * ray_epsilon(p, extent);
+}
+
+/// The extent that counts for a point on a round lamp of this radius (m): that of what may lie around it.
+inline float extent_about(Vec3 p, float radius, float extent) {
+    return std::min(extent, 40.0f * (max_component(magnitudes(p)) + radius));
+}
+
+/// Distance (m) by which rays start off the triangle a, b, c, but no more than a point anywhere in a scene of
+/// this extent would be moved. Along the normal n, these errors add up in single precision:
+/// - of a point on the triangle, which is a sum of its corners: that of the corners along n;
+/// - of the normal, by which a point of the triangle seems to lie off its plane: that of the products of the
+///   edges, times the edges;
+/// - of the position in space, where nothing of n is exactly 0;
+/// - of a segment that comes from afar, at most from 64 times as far away as the corners are from the origin.
+/// A wide floor that is level has none of the first three, however wide it is.
+inline float triangle_stand_off(Vec3 a, Vec3 b, Vec3 c, float extent) {
+    const Vec3 edge1 = b - a;
+    const Vec3 edge2 = c - a;
+    const Vec3 across = cross(edge1, edge2);
+    const float inverse = 1.0f / length(across);
+    const Vec3 n = magnitudes(across) * inverse;
+    const Vec3 magnitude = max(magnitudes(a), max(magnitudes(b), magnitudes(c)));
+    const Vec3 e1 = magnitudes(edge1);
+    const Vec3 e2 = magnitudes(edge2);
+    const Vec3 products{e1.y * e2.z + e1.z * e2.y, e1.z * e2.x + e1.x * e2.z, e1.x * e2.y + e1.y * e2.x};
+    const float largest = max_component(magnitude);
+    const float rounding = 1e-6f * (dot(n, magnitude) + dot(max(e1, e2), products) * inverse) +
+                           5e-8f * largest +
+                           4e-7f * (n.x + n.y + n.z) * std::min(extent, 64.0f * largest);
+    const float most = 2e-5f * std::max(largest, 0.05f * extent);
+    return rounding < most ? rounding : most;
 }
 
 }  // namespace nearlight::core

@@ -151,8 +151,7 @@ bool any_excused(EdgeExcuse& edges, const Vpl& vpl, std::span<const ReceiverPack
 /// Whether Embree's ray from `point` towards `vpl` lands there.
 bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, const Importon& point,
                   const Vpl& vpl) {
-    const Vec3 on_surface = vpl.position - vpl.normal * ray_epsilon(vpl.position, extent);
-    const Vec3 direction = normalize(on_surface - point.position);
+    const Vec3 direction = normalize(vpl.position - point.position);
     const BvhHit hit =
         embree.closest_hit(point.position, direction, 0.0f, std::numeric_limits<float>::infinity());
     if (hit.triangle == ~0u) {
@@ -160,7 +159,7 @@ bool landed_right(const Scene& scene, const EmbreeScene& embree, float extent, c
     }
     const Surface surface = surface_at(scene, hit, direction);
     const float slack = 2e-5f * extent / std::max(-dot(surface.geometric_normal, direction), 1e-3f);
-    return length(surface.position - on_surface) <= slack &&
+    return length(surface.position - vpl.position) <= slack &&
            length(surface.geometric_normal - vpl.normal) <= 1e-4f &&
            length(diffuse_albedo(scene, *surface.material, surface.u, surface.v) - vpl.power) <= 1e-5f &&
            vpl.depth == 0;

@@ -58,7 +58,7 @@ static inline SurfaceHit trace_first(const SceneView* scene, const global Camera
     SurfaceHit hit = trace_between(scene, ray->origin, ray->direction, ray->t_min, ray->t_max);
     for (uint i = 0; camera->hides_emitters && hit.t >= 0.0f && is_emitter(scene, &hit); ++i) {
         const float passed = hit.t;
-        const float3 origin = offset_point(scene, hit.position, -hit.geometric);
+        const float3 origin = off_surface(&hit, -hit.geometric);
         hit = i < MAX_HIDDEN ? trace_surface(scene, origin, ray->direction, INFINITY) : no_surface();
         hit.t += hit.t >= 0.0f ? passed : 0.0f;
     }

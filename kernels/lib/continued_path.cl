@@ -169,7 +169,7 @@ static inline bool reflects_to_bundle(const FoundReflection* found, const Surfac
 static inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
                                            const SurfaceHit* hit, const SurfaceBsdf* surface, float model,
                                            float u, Continuation* way) {
-    const float3 y = offset_point(scene, hit->position, hit->geometric);
+    const float3 y = off_surface(hit, hit->geometric);
     BundlePath path;
     path.is_one = reflects_to_bundle(found, surface, x, y, way);
     if (path.is_one) {
@@ -189,7 +189,7 @@ static inline void find_reflected_sample(const SceneView* scene, const SurfaceHi
     if (!may_shine(light) || !(light->pdf > 0.0f) || !(dot(surface->frame.n, light->direction) > 0.0f)) {
         return;
     }
-    const float3 part = arriving_part(scene, ray_origin(scene, hit, light->direction), light, max_veils);
+    const float3 part = arriving_part(scene, ray_origin(hit, light->direction), light, max_veils);
     if (is_black(part)) {
         return;
     }
@@ -316,7 +316,7 @@ static inline bool is_found_behind_veils(const SceneView* scene, const Continued
     }
     // A ray that passes a veil may miss a surface that coincides with it.
     const float3 x = path->ray.from.x;
-    const float3 y = offset_point(scene, path->hit.position, path->hit.geometric);
+    const float3 y = off_surface(&path->hit, path->hit.geometric);
     return !tree_occluded(scene->nodes, scene->solids, x, y - x, NEARLIGHT_SEGMENT_T_MIN,
                           NEARLIGHT_SEGMENT_T_MAX);
 }

@@ -63,7 +63,7 @@ static inline float3 reflected_flux(const SceneView* scene, const EmittedParticl
 static inline Vpl make_deposit(const SceneView* scene, const MetSurface* at, uint depth, uint flags,
                                float3 power) {
     const float3 normal = at->hit.geometric;
-    return make_vpl(offset_point(scene, at->hit.position, normal), normal, at->surface.frame.n,
+    return make_vpl(off_surface(&at->hit, normal), normal, at->surface.frame.n,
                     at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
 }
 
@@ -112,7 +112,7 @@ OUTLINED_ON_CPU void scatter(const SceneView* scene, EmittedParticle* particle, 
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
     particle->direction = sample.wi;
-    particle->origin = ray_origin(scene, &at->hit, sample.wi);
+    particle->origin = ray_origin(&at->hit, sample.wi);
     particle->from_delta = particle->from_delta && passes;
 }
 

@@ -24,8 +24,8 @@ static inline bool is_black(float3 c) {
     return !(max_component(c) > 0.0f);
 }
 
-/// How far a point must stand off its surface, in metres, so that rays from it do not meet that surface
-/// again. host/scene/ray_epsilon.h has the same formula.
+/// How far a point must stand off a surface of which nothing else is known, in metres, so that rays from it
+/// do not meet that surface again. host/scene/ray_epsilon.h has the same formula.
 static inline float ray_epsilon(float3 p, float extent) {
     return 2e-5f * fmax(max_component(fabs(p)), 0.05f * extent);
 }

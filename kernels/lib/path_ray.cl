@@ -42,7 +42,7 @@ static inline float3 reflected_sample(const SceneView* scene, const SurfaceHit* 
     if (is_black(value)) {
         return (float3)(0.0f);
     }
-    const float3 origin = ray_origin(scene, hit, light->direction);
+    const float3 origin = ray_origin(hit, light->direction);
     const float3 part = arriving_part(scene, origin, light, max_veils);
     if (is_black(part)) {
         return part;
@@ -208,11 +208,11 @@ OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit
     ray->index *= surface->unscaled ? 1.0f : sample.eta;
     ray->direction = sample.wi;
     if (sample.is_straight) {
-        ray->origin = ray_origin(scene, hit, sample.wi);
+        ray->origin = ray_origin(hit, sample.wi);
         ray->passed += hit->t;
         ++ray->veils;
     } else {
-        const LightReceiver from = light_receiver(ray_origin(scene, hit, sample.wi), surface, parts);
+        const LightReceiver from = light_receiver(ray_origin(hit, sample.wi), surface, parts);
         begin_ray(ray, &from, sample.is_delta ? 0.0f : sample.pdf);
     }
     return !is_black(ray->throughput);
@@ -240,7 +240,7 @@ static inline float3 light_along(const SceneView* scene, PathRay ray, uint max_v
         }
         ray.throughput *= veil_transmittance(scene, &hit, ray.direction);
         ++ray.veils;
-        t_min = beyond_surface(scene, &hit, ray.direction);
+        t_min = beyond_surface(&hit, ray.direction);
     }
     return sum;
 }

@@ -87,7 +87,7 @@ OUTLINED_ON_CPU float3 short_walk_irradiance(const SceneView* scene, const Conne
     }
     float weight = 0.0f;
     if (hit.t < to->law.max_radius) {
-        const float3 y = offset_point(scene, hit.position, hit.geometric);
+        const float3 y = off_surface(&hit, hit.geometric);
         weight = remaining_weight(hit.t, gather_radius(scene, &to->law, y, hit.geometric));
     }
     const WantedLight wanted = {.of_vpls = 1.0f - weight,

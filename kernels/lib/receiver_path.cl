@@ -77,7 +77,7 @@ static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* 
 static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
                                        float3 radiance, float of_vpls) {
     SharedLight light;
-    light.position = store3(offset_point(scene, hit->position, hit->geometric));
+    light.position = store3(off_surface(hit, hit->geometric));
     light.weight = max_component(radiance) * fmax(1.0f - of_vpls, OTHER_PLACES);
     light.normal = store3(hit->geometric);
     light.curve = (ushort)way->curve;
@@ -119,7 +119,7 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
         return (float3)(0.0f);
     }
     const Veiling veiling =
-        veiling_between(finds->veils, at->x, offset_point(scene, behind.position, behind.geometric));
+        veiling_between(finds->veils, at->x, off_surface(&behind, behind.geometric));
     const uint veils = veiling.count;
     if (veils == 0 || veils > NEARLIGHT_MAX_VEILS || limits->max_edges < veils + 2) {
         return (float3)(0.0f);

@@ -87,8 +87,32 @@ typedef struct SurfaceHit {
     float2 uv;         // texture coordinates
     uint triangle;     // index into SceneView.triangles
     uint material;
-    uint front;  // 1: the ray met the front
+    uint front;       // 1: the ray met the front
+    float stand_off;  // how far from the surface rays start that leave it, m
 } SurfaceHit;
+
+/// How far from a triangle rays start that leave it, in metres. host/scene/ray_epsilon.h has the same formula
+/// and says what its parts are for.
+static inline float triangle_stand_off(const SceneView* scene, uint triangle_id) {
+    const Triangle triangle = scene->triangles[triangle_id];
+    const float3 a = load3(scene->vertices[triangle.v0].position);
+    const float3 b = load3(scene->vertices[triangle.v1].position);
+    const float3 c = load3(scene->vertices[triangle.v2].position);
+    const float3 edge1 = b - a;
+    const float3 edge2 = c - a;
+    const float3 across = cross(edge1, edge2);
+    const float inverse = rsqrt(dot(across, across));
+    const float3 n = fabs(across) * inverse;
+    const float3 magnitude = fmax(fabs(a), fmax(fabs(b), fabs(c)));
+    const float3 e1 = fabs(edge1);
+    const float3 e2 = fabs(edge2);
+    const float3 products = e1.yzx * e2.zxy + e1.zxy * e2.yzx;
+    const float largest = max_component(magnitude);
+    const float rounding = 1e-6f * (dot(n, magnitude) + dot(fmax(e1, e2), products) * inverse) +
+                           5e-8f * largest +
+                           4e-7f * (n.x + n.y + n.z) * fmin(scene->info->extent, 64.0f * largest);
+    return fmin(rounding, 2e-5f * fmax(largest, 0.05f * scene->info->extent));
+}
 
 /// The surface at a point of a triangle, met from the front or from the back. `normal` is that of the
 /// triangle's front, and `t` is left 0.
@@ -113,6 +137,7 @@ static inline SurfaceHit surface_at(const SceneView* scene, uint triangle_id, fl
     hit.uv = (float2)(w * a->u + u * b->u + v * c->u, w * a->v + u * b->v + v * c->v);
     hit.triangle = triangle_id;
     hit.material = triangle.material;
+    hit.stand_off = triangle_stand_off(scene, triangle_id);
     return hit;
 }
 
@@ -168,14 +193,22 @@ static inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
                           NEARLIGHT_SEGMENT_T_MAX);
 }
 
-static inline float3 offset_point(const SceneView* scene, float3 position, float3 normal) {
-    return position + ray_epsilon(position, scene->info->extent) * normal;
+/// The point off a surface where it was hit, on the side of the unit vector `side`, which is its normal or the
+/// opposite.
+static inline float3 off_surface(const SurfaceHit* hit, float3 side) {
+    return hit->position + hit->stand_off * side;
+}
+
+/// A point on a sphere or cylinder that emits, moved off it along `outwards`.
+static inline float3 off_round_light(const SceneView* scene, const global Emitter* light, float3 point,
+                                     float3 outwards) {
+    const float about = 40.0f * (max_component(fabs(point)) + light->radius);
+    return point + ray_epsilon(point, fmin(scene->info->extent, about)) * outwards;
 }
 
 /// The point off a surface from which a ray in the given direction starts.
-static inline float3 ray_origin(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
-    return offset_point(scene, hit->position,
-                        dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
+static inline float3 ray_origin(const SurfaceHit* hit, float3 direction) {
+    return off_surface(hit, dot(hit->geometric, direction) > 0.0f ? hit->geometric : -hit->geometric);
 }
 
 #endif

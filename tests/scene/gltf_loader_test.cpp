@@ -85,6 +85,29 @@ TEST_F(GltfLoader, SparseAccessors) {
     expect_close(corner(scene, 0, 1), {1, 0, 0});
 }
 
+/// Numbers without a buffer view are 0 except for sparse ones, those of indices too.
+TEST_F(GltfLoader, IndicesMayBeSparse) {
+    const Scene before = load();
+    const int places = gltf_.view(GltfText::raw(std::vector<std::uint16_t>{1, 2, 4, 5}));
+    const int values = gltf_.view(GltfText::raw(std::vector<std::uint16_t>{1, 2, 2, 3}));
+    json& accessors = gltf_.root["accessors"];
+    gltf_.primitive()["indices"] = accessors.size();
+    accessors.push_back({{"componentType", 5123},
+                         {"type", "SCALAR"},
+                         {"count", 6},
+                         {"sparse",
+                          {{"count", 4},
+                           {"indices", {{"bufferView", places}, {"componentType", 5123}, {"byteOffset", 0}}},
+                           {"values", {{"bufferView", values}, {"byteOffset", 0}}}}}});
+    const Scene scene = load();
+    ASSERT_EQ(scene.triangles.size(), before.triangles.size());
+    for (std::size_t triangle = 0; triangle < 2; ++triangle) {
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_EQ(corner(scene, triangle, i), corner(before, triangle, i));
+        }
+    }
+}
+
 TEST_F(GltfLoader, LaterVersionsAreRefused) {
     gltf_.root["asset"]["minVersion"] = "2.1";
     EXPECT_THAT(error(), HasSubstr("needs glTF 2.1"));

@@ -168,6 +168,12 @@ void put_images_back(GltfFile& file, const std::vector<EmbeddedImage>& embedded)
     }
 }
 
+void put_indices_back(GltfFile& file, const std::vector<TakenIndices>& taken) {
+    for (const auto& [mesh, primitive, accessor] : taken) {
+        file.model.meshes.at(mesh).primitives.at(primitive).indices = accessor;
+    }
+}
+
 /// Decodes images in data URIs of kinds that tinygltf leaves as they are, such as WebP.
 void decode_other_images(tinygltf::Model& model) {
     for (tinygltf::Image& image : model.images) {
@@ -223,6 +229,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     parse_json(file, lean.text);
     check_version(file);
     put_images_back(file, lean.images);
+    put_indices_back(file, lean.indices);
     if (!chunks.is_binary) {
         bytes = {};  // the data URIs in it have been taken out
     }

@@ -147,6 +147,29 @@ void drop_compressed_indices(Json& root) {
     }
 }
 
+/// Takes out indices whose accessor has no buffer view.
+std::vector<TakenIndices> take_indices(Json& root) {
+    const std::vector<Json*> accessors = objects_of(root, "accessors");
+    const auto lacks_view = [&](const Json& index) {
+        return index.is_number_unsigned() && index.get<std::uint64_t>() < accessors.size() &&
+               !accessors[index.get<std::size_t>()]->contains("bufferView");
+    };
+    std::vector<TakenIndices> taken;
+    std::size_t mesh_number = 0;
+    for (Json* const mesh : objects_of(root, "meshes")) {
+        std::size_t primitive_number = 0;
+        for (Json* const primitive : objects_of(*mesh, "primitives")) {
+            if (primitive->contains("indices") && lacks_view((*primitive)["indices"])) {
+                taken.push_back({mesh_number, primitive_number, (*primitive)["indices"].get<int>()});
+                primitive->erase("indices");
+            }
+            ++primitive_number;
+        }
+        ++mesh_number;
+    }
+    return taken;
+}
+
 }  // namespace
 
 JsonSurvey survey_json(std::string_view text) {
@@ -168,6 +191,7 @@ LeanJson lean_json(std::string_view json, bool is_binary, Decoders decoders) {
         is_first_of_binary = false;
     }
     lean.images = take_embedded_images(root);
+    lean.indices = take_indices(root);
     lean.text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
     return lean;
 }

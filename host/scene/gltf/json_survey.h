@@ -35,11 +35,19 @@ struct EmbeddedImage {
     int buffer_view = -1;  ///< −1: one that no file can have
 };
 
+/// The indices of a primitive, whose accessor has no buffer view: they are 0 but for sparse ones.
+struct TakenIndices {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;
+    int accessor = -1;
+};
+
 /// JSON of which tinygltf reads no buffers and files, and what was taken out of it.
 struct LeanJson {
     std::string text;
     std::vector<BufferSource> buffers{};
     std::vector<EmbeddedImage> images{};
+    std::vector<TakenIndices> indices{};
 };
 
 /// The kinds of compressed data that are decoded.
@@ -49,9 +57,9 @@ struct Decoders {
 };
 
 /// The JSON with one byte in place of each buffer, and with a name that no file has in place of the buffer
-/// view of each image, which tinygltf looks up without a check. Compressed primitives lose their indices,
-/// which it refuses because they have no buffer view. The JSON must be valid; `is_binary`: it is that of a
-/// .glb.
+/// view of each image, which tinygltf looks up without a check. Primitives lose indices that have no buffer
+/// view, which it refuses, for good if they are compressed. The JSON must be valid; `is_binary`: it is that
+/// of a .glb.
 LeanJson lean_json(std::string_view json, bool is_binary, Decoders decoders);
 
 }  // namespace nearlight::core::gltf

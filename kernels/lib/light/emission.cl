@@ -60,7 +60,7 @@ static inline EmittedParticle emit_from_triangle(const SceneView* scene, const W
     const float2 place = square_to_triangle(u_position);
     const float3 point = triangle_point(scene, emitter->triangle, place, &normal);
     const EmittedDirection emitted = sample_emitted_direction(aim, point, normal, u_direction);
-    particle.origin = offset_point(scene, point, normal);
+    particle.origin = point + triangle_stand_off(scene, emitter->triangle) * normal;
     particle.direction = emitted.direction;
     particle.flux =
         triangle_radiance(scene, emitter->triangle, place) * (emitted.solid_angle * emitter->area);
@@ -91,7 +91,7 @@ static inline EmittedParticle emit_from_round_light(const SceneView* scene, cons
     const float way = gap / fmax(rise + sqrt(rise * rise + (1.0f - along * along) * gap), 1e-30f);
     const float3 exit = radius * normal + way * particle.direction;
     const float3 outwards = (exit - way * along * axis) / outer;
-    particle.origin = offset_point(scene, center + exit, outwards);
+    particle.origin = off_round_light(scene, emitter, center + exit, outwards);
     particle.flux = load3(emitter->radiance) * (emitted.solid_angle * emitter->area);
     particle.from_delta = 0;
     return particle;

@@ -76,7 +76,7 @@ static inline LightSample sample_triangle_light(const SceneView* scene, const gl
     float3 normal;
     const float3 point = triangle_point(scene, emitter->triangle, on_light.barycentrics, &normal);
     LightSample sample = no_light(x);
-    sample.target = offset_point(scene, point, normal);
+    sample.target = point + triangle_stand_off(scene, emitter->triangle) * normal;
     sample.direction = on_light.direction;
     sample.radiance = on_light.pdf > 0.0f ? triangle_radiance(scene, emitter->triangle, on_light.barycentrics)
                                           : (float3)(0.0f);
@@ -90,7 +90,7 @@ static inline LightSample sample_round_light(const SceneView* scene, const globa
     const RoundSample on_light = emitter->type == NEARLIGHT_EMITTER_SPHERE ? sample_sphere(emitter, x, u)
                                                                            : sample_cylinder(emitter, x, u);
     LightSample sample = no_light(x);
-    sample.target = offset_point(scene, on_light.point, on_light.normal);
+    sample.target = off_round_light(scene, emitter, on_light.point, on_light.normal);
     sample.direction = on_light.direction;
     sample.radiance = on_light.pdf > 0.0f ? load3(emitter->radiance) : (float3)(0.0f);
     sample.pdf = on_light.pdf;

@@ -79,8 +79,8 @@ OUTLINED float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit
 
 /// Where, along the unit direction of a ray that met a surface, one would start that leaves its other side. A
 /// ray that grazes the surface must not skip what stands on it.
-static inline float beyond_surface(const SceneView* scene, const SurfaceHit* hit, float3 direction) {
-    return hit->t + ray_epsilon(hit->position, scene->info->extent) /
+static inline float beyond_surface(const SurfaceHit* hit, float3 direction) {
+    return hit->t + hit->stand_off /
                         fmax(fabs(dot(hit->geometric, direction)), NEARLIGHT_MIN_GRAZING_COSINE);
 }
 
@@ -106,7 +106,7 @@ static inline Veiling pass_veils(const SceneView* scene, float3 x, float3 direct
             break;
         }
         veiling.part *= veil_transmittance(scene, &hit, direction);
-        t_min = beyond_surface(scene, &hit, direction);
+        t_min = beyond_surface(&hit, direction);
     }
     return veiling;
 }
