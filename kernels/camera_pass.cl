@@ -91,9 +91,9 @@ OUTLINED_ON_CPU CameraPath start_path(const global Camera* camera, uint x, uint 
     return path;
 }
 
-static inline void set_receiver(const SceneView* scene, const global CloseRange* close_range,
-                                const CameraPath* path, const SurfaceHit* hit, const SurfaceBsdf* surface,
-                                float3 albedo, uint surfaces, CameraReceiver* receiver) {
+static inline void set_receiver(const global CloseRange* close_range, const CameraPath* path,
+                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
+                                uint surfaces, CameraReceiver* receiver) {
     receiver->position = off_surface(hit, hit->geometric);
     receiver->normal = surface->frame.n;
     receiver->surface = surface->bsdf.curve | surfaces << NEARLIGHT_RECEIVER_SURFACES_SHIFT |
@@ -185,7 +185,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
             trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1,
                         &receiver.vertex);
         } else if (way == WAY_RECEIVER) {
-            set_receiver(scene, close_range, path, &hit, &surface, albedo, step, &receiver);
+            set_receiver(close_range, path, &hit, &surface, albedo, step, &receiver);
             if (quota.bundle_rays > 0) {
                 receiver.seen = seen_surface(&hit, straight, numbers.model, quota.samples);
             }

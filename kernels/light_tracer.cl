@@ -66,8 +66,8 @@ OUTLINED_ON_CPU uint follow_walk(const SceneView* scene, const ClosePlaces* clos
         const bool kept = params->keep == NEARLIGHT_KEEP_ALL || !is_close ||
                           (params->keep == NEARLIGHT_KEEP_INDIRECT_INSIDE && bounce > 0);
         if (kept && !is_black(reflected)) {
-            vpls[count++] = make_deposit(scene, &at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0,
-                                         reflected / launched);
+            vpls[count++] =
+                make_deposit(&at, bounce + 1, is_close ? NEARLIGHT_VPL_CLOSE : 0, reflected / launched);
         }
         launched *= survival(scene, &particle, &at, params->min_survival, params->max_survival);
         scatter(scene, &particle, &at, aim, choice.y, sample_2d(walk, pair + 1, seed));

@@ -72,7 +72,7 @@ kernel void metropolis_walks(SCENE_PARAMETERS, WalkAim aim, const global float* 
         vpls[index] = make_vpl((float3)(0.0f), (float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), 0, last + 1, 0,
                                (float3)(0.0f));
     } else {
-        vpls[index] = make_deposit(&scene, &at, last + 1, 0, reflected / probability);
+        vpls[index] = make_deposit(&at, last + 1, 0, reflected / probability);
     }
 }
 

@@ -28,10 +28,10 @@ SurfaceBsdf bsdf_at(const Scene& scene, const Surface& surface, const RayQuery& 
 }
 
 bool fits(const Scene& scene, const CloseRange& region, const RayQuery& ray, const BvhHit& hit,
-          const Found& found, float extent) {
+          const Found& found, Vec3 scene_size) {
     const Surface surface = surface_at(scene, hit, ray.direction);
-    const float slack = kTolerance * extent;
-    const Vec3 position = surface.off(surface.geometric_normal, extent);
+    const float slack = kTolerance * max_component(scene_size);
+    const Vec3 position = surface.off(surface.geometric_normal, scene_size);
     const SurfaceBsdf bsdf = bsdf_at(scene, surface, ray);
     const bool is_close = (found.vertex.flags & NEARLIGHT_VERTEX_CLOSE) != 0;
     const float cosine = std::max(std::abs(dot(surface.geometric_normal, ray.direction)), 1e-3f);
@@ -52,7 +52,8 @@ CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, c
                                      std::span<const ReceiverPacket> receivers,
                                      std::span<const CameraVertex> vertices) {
     const EmbreeScene embree(scene);
-    const float extent = max_component(bounds(scene).size());
+    const Vec3 scene_size = bounds(scene).size();
+    const float extent = max_component(scene_size);
     constexpr uint kTile = NEARLIGHT_TILE_SIZE;
     const uint tiles_x = (camera.width + kTile - 1) / kTile;
     CameraComparison comparison;
@@ -68,7 +69,7 @@ CameraComparison compare_with_embree(const Scene& scene, const Camera& camera, c
                                : BvhHit{};
         const bool absent =
             hit.triangle == ~0u || !bsdf_at(scene, surface_at(scene, hit, ray.direction), ray).has_diffuse();
-        const bool right = absent ? is_absent(found) : fits(scene, close_range, ray, hit, found, extent);
+        const bool right = absent ? is_absent(found) : fits(scene, close_range, ray, hit, found, scene_size);
         ++(absent ? comparison.absent : comparison.receivers);
         comparison.mismatches += right || (!absent && touches_edge(scene, hit, ray, extent)) ? 0 : 1;
     }

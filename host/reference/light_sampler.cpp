@@ -66,7 +66,7 @@ LightSampler::LightSampler(const Scene& scene)
     : scene_(scene),
       table_(build_emitter_table(scene)),
       environment_(scene),
-      extent_(max_component(bounds(scene).size())) {
+      scene_size_(bounds(scene).size()) {
     sampled_first_ =
         table_.delta_emitter_count <= NEARLIGHT_MAX_EXACT_LIGHTS ? table_.delta_emitter_count : 0;
     sampled_before_ = sampled_first_ > 0 ? table_.emitters[sampled_first_ - 1].cdf : 0.0;
@@ -132,8 +132,7 @@ LightPick LightSampler::triangle_pick(const Emitter& emitter, Vec3 position, Poi
         const double distance = length(point - position);
         pick.density = area_density(emitter, distance, -dot(light_normal, pick.direction));
     }
-    pick.target =
-        point + light_normal * triangle_stand_off(corners[0], corners[1], corners[2], extent_);
+    pick.target = point + light_normal * triangle_stand_off(corners[0], corners[1], corners[2], scene_size_);
     if (pick.density > 0.0) {
         const auto [u1, u2] = weights_at(corners, point);
         pick.radiance = emitted_radiance({0.0f, u1, u2, emitter.triangle}, pick.direction);
@@ -171,9 +170,9 @@ LightPick LightSampler::sample(Vec3 position, LightRandom random) const {
     if (emitter.type == NEARLIGHT_EMITTER_TRIANGLE) {
         pick = triangle_pick(emitter, position, random.place);
     } else if (emitter.type == NEARLIGHT_EMITTER_SPHERE) {
-        pick = round_pick(emitter, SeenSphere(emitter, position), random.place, extent_);
+        pick = round_pick(emitter, SeenSphere(emitter, position), random.place, max_component(scene_size_));
     } else if (emitter.type == NEARLIGHT_EMITTER_CYLINDER) {
-        pick = round_pick(emitter, SeenCylinder(emitter, position), random.place, extent_);
+        pick = round_pick(emitter, SeenCylinder(emitter, position), random.place, max_component(scene_size_));
     } else {
         pick = exact_light(scene_, emitter, position);
     }

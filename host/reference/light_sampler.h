@@ -71,7 +71,8 @@ class LightSampler {
     /// its front emits.
     [[nodiscard]] Vec3 emitted_radiance(const BvhHit& hit, Vec3 direction) const;
 
-    [[nodiscard]] float extent() const { return extent_; }
+    /// Sides of the scene's bounds, m.
+    [[nodiscard]] Vec3 scene_size() const { return scene_size_; }
 
   private:
     [[nodiscard]] LightPick triangle_pick(const Emitter& emitter, Vec3 position, Point2 u) const;
@@ -86,7 +87,7 @@ class LightSampler {
     const Scene& scene_;
     EmitterTable table_;
     EnvironmentSampler environment_;
-    float extent_ = 0.0f;
+    Vec3 scene_size_;
     std::size_t sampled_first_ = 0;  ///< the first entry of the table that is not summed exactly
     double sampled_before_ = 0.0;    ///< probability of the entries before it
 };

@@ -73,7 +73,7 @@ bool PathIntegrator::only_diffuse(const Walk& walk) const {
 Vec3 PathIntegrator::beside(const Surface& surface, Vec3 direction) const {
     const bool stays = dot(direction, surface.geometric_normal) > 0.0f;
     const Vec3 side = stays ? surface.geometric_normal : -surface.geometric_normal;
-    return surface.off(side, lights_.extent());
+    return surface.off(side, lights_.scene_size());
 }
 
 // Emission that a ray meets was scattered once less than light sampled at the vertex before.
@@ -107,7 +107,7 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     }
     const int max_veils = max_depth_ > 0 ? max_depth_ - walk.vertices - 2 : NEARLIGHT_MAX_VEILS;
     const ShadowRay shadow =
-        shadow_ray(scene_, embree_, beside(surface, pick.direction), pick, max_veils, lights_.extent());
+        shadow_ray(scene_, embree_, beside(surface, pick.direction), pick, max_veils, lights_.scene_size());
     const bool base_only = only_diffuse(walk);
     Vec3d sum;
     if (pick.is_delta) {
@@ -127,7 +127,7 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
 
 void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
                                        const LightRandom& random, PathLight& light) const {
-    const Vec3 position = surface.off(surface.geometric_normal, lights_.extent());
+    const Vec3 position = surface.off(surface.geometric_normal, lights_.scene_size());
     Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
         layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
@@ -179,8 +179,8 @@ void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, con
                                    CameraPath& path) const {
     path.has_receiver = true;
     path.throughput = as_float(walk.throughput);
-    path.receiver = {surface.off(surface.geometric_normal, lights_.extent()),
-                     as_float(bsdf.normal()), as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
+    path.receiver = {surface.off(surface.geometric_normal, lights_.scene_size()), as_float(bsdf.normal()),
+                     as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
 }
 
 /// The first surface that the camera sees. Where emitters are hidden, the ray goes on behind them to any
@@ -193,7 +193,7 @@ BvhHit PathIntegrator::first_hit(const Ray& ray) const {
             break;
         }
         const float passed = hit.t;
-        const Vec3 behind = surface.off(-surface.geometric_normal, lights_.extent());
+        const Vec3 behind = surface.off(-surface.geometric_normal, lights_.scene_size());
         hit = embree_.closest_hit(behind, ray.direction, 0.0f, kInfinity);
         hit.t += passed;
     }

@@ -9,7 +9,7 @@
 namespace nearlight::core {
 
 ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 position, const LightPick& pick,
-                     int max_veils, float extent) {
+                     int max_veils, Vec3 scene_size) {
     if (pick.is_delta && !scene.clear_glass) {
         max_veils = 0;
     }
@@ -35,7 +35,7 @@ ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 positio
         }
         // Here a ray would start that left the veil's other side.
         const float cosine = std::abs(dot(surface.geometric_normal, direction));
-        t_min = hit.t + surface.stand_off(extent) / std::max(cosine, NEARLIGHT_MIN_GRAZING_COSINE);
+        t_min = hit.t + surface.stand_off(scene_size) / std::max(cosine, NEARLIGHT_MIN_GRAZING_COSINE);
     }
 }
 

@@ -17,6 +17,6 @@ struct ShadowRay {
 /// surfaces; NEARLIGHT_MAX_VEILS are passed at most. Veils (see veil_transmittance()) block delta lights
 /// unless the scene has clear glass.
 ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 position, const LightPick& pick,
-                     int max_veils, float extent);
+                     int max_veils, Vec3 scene_size);
 
 }  // namespace nearlight::core

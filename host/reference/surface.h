@@ -11,9 +11,9 @@
 namespace nearlight::core {
 
 struct Surface {
-    Vec3 position;          ///< on the triangle
-    std::array<Vec3, 3> corners;  ///< of the triangle
-    Vec3 geometric_normal;  ///< unit vector, on the side that the ray came from
+    Vec3 position;                  ///< on the triangle
+    std::array<Vec3, 3> corners{};  ///< of the triangle
+    Vec3 geometric_normal;          ///< unit vector, on the side that the ray came from
     Vec3 front_normal;  ///< the unit shading normal as the vertices have it, which says where the front is
     Vec3 along_u;       ///< derivatives of the position by the texture coordinates; zero where these do not
     Vec3 along_v;       ///< span the triangle
@@ -24,12 +24,14 @@ struct Surface {
     const Material* material = nullptr;
     bool front = true;  ///< the ray came from the triangle's front
 
-    /// Distance (m) by which rays start off it, in a scene of this extent (m).
-    [[nodiscard]] float stand_off(float extent) const {
-        return triangle_stand_off(corners[0], corners[1], corners[2], extent);
+    /// Distance (m) by which rays start off it, in a scene whose bounds have these sides (m).
+    [[nodiscard]] float stand_off(Vec3 scene_size) const {
+        return triangle_stand_off(corners[0], corners[1], corners[2], scene_size);
     }
     /// The point from which rays start on the side of the unit vector `side`, the normal or the opposite.
-    [[nodiscard]] Vec3 off(Vec3 side, float extent) const { return position + side * stand_off(extent); }
+    [[nodiscard]] Vec3 off(Vec3 side, Vec3 scene_size) const {
+        return position + side * stand_off(scene_size);
+    }
 };
 
 /// The surface at a hit of a ray with the given direction.

@@ -10,10 +10,10 @@ namespace nearlight::core {
 namespace {
 
 /// Curves take milliseconds to compute. So many steps between 0 and 1 are as good as any number.
-constexpr double kSteps = 64;
+constexpr double kStepsToOne = 64;
 
 double in_steps(double number) {
-    return std::round(std::clamp(number, 0.0, 1.0) * kSteps) / kSteps;
+    return std::round(std::clamp(number, 0.0, 1.0) * kStepsToOne) / kStepsToOne;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/math.h"
+#include "host/scene/scene.h"
 
 namespace nearlight::core {
 
@@ -13,9 +14,9 @@ inline Vec3 magnitudes(Vec3 v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// Distance (m) by which a point p is moved off a surface of which nothing else is known: some rounding errors
-/// of its coordinates, and at least those of a point 5 % of `extent` (largest side of the scene's bounds, m)
-/// from the origin.
+/// Distance (m) by which a point p is moved off a surface of which nothing else is known: some rounding
+/// errors of its coordinates, and at least those of a point 5 % of `extent` (largest side of the scene's
+/// bounds, m) from the origin.
 inline float ray_epsilon(Vec3 p, float extent) {
     return 2e-5f * std::max(max_component(magnitudes(p)), 0.05f * extent);
 }
@@ -31,15 +32,16 @@ inline float extent_about(Vec3 p, float radius, float extent) {
     return std::min(extent, 40.0f * (max_component(magnitudes(p)) + radius));
 }
 
-/// Distance (m) by which rays start off the triangle a, b, c, but no more than a point anywhere in a scene of
-/// this extent would be moved. Along the normal n, these errors add up in single precision:
+/// Distance (m) by which rays start off the triangle a, b, c in a scene whose bounds have these sides, but no
+/// more than a point beside it would be moved. Along the normal n, these errors add up in single precision:
 /// - of a point on the triangle, which is a sum of its corners: that of the corners along n;
 /// - of the normal, by which a point of the triangle seems to lie off its plane: that of the products of the
 ///   edges, times the edges;
-/// - of the position in space, where nothing of n is exactly 0;
-/// - of a segment that comes from afar, at most from 64 times as far away as the corners are from the origin.
-/// A wide floor that is level has none of the first three, however wide it is.
-inline float triangle_stand_off(Vec3 a, Vec3 b, Vec3 c, float extent) {
+/// - of coordinates as such, half a rounding error of the largest;
+/// - of a segment that comes from the other end of the scene, or from 64 times as far away as the corners are
+///   from the origin.
+/// A wide floor that is level has hardly any of these, however wide it is.
+inline float triangle_stand_off(Vec3 a, Vec3 b, Vec3 c, Vec3 scene_size) {
     const Vec3 edge1 = b - a;
     const Vec3 edge2 = c - a;
     const Vec3 across = cross(edge1, edge2);
@@ -52,9 +54,16 @@ inline float triangle_stand_off(Vec3 a, Vec3 b, Vec3 c, float extent) {
     const float largest = max_component(magnitude);
     const float rounding = 1e-6f * (dot(n, magnitude) + dot(max(e1, e2), products) * inverse) +
                            5e-8f * largest +
-                           4e-7f * (n.x + n.y + n.z) * std::min(extent, 64.0f * largest);
-    const float most = 2e-5f * std::max(largest, 0.05f * extent);
+                           4e-7f * dot(n, min(scene_size, Vec3{1, 1, 1} * (64.0f * largest)));
+    const float most = 2e-5f * std::max(largest, 0.05f * max_component(scene_size));
     return rounding < most ? rounding : most;
+}
+
+/// The same of a triangle of the scene.
+inline float triangle_stand_off(const Scene& scene, uint triangle, Vec3 scene_size) {
+    const Triangle& t = scene.triangles[triangle];
+    return triangle_stand_off(scene.vertices[t.v0].position, scene.vertices[t.v1].position,
+                              scene.vertices[t.v2].position, scene_size);
 }
 
 }  // namespace nearlight::core

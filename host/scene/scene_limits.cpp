@@ -10,9 +10,10 @@
 namespace nearlight::core {
 namespace {
 
-/// Rays may start this part of the scene's largest side off their surfaces before it is worth a remark. They
-/// start a hundredth of that off them where the origin is in the scene.
+/// Rays may start this part of the scene's largest side off their surfaces before it is worth a remark.
 constexpr float kVisibleOffset = 1e-3f;
+/// How far rays start off most triangles that lie a metre from the origin, by triangle_stand_off().
+constexpr float kOffsetAtOneMetre = 2e-6f;
 
 /// Returns whether the light was brighter than it may be.
 bool limit(Vec3& light) {
@@ -42,7 +43,8 @@ void remark_distance(const Scene& scene, NoteSink& notes) {
     }
     const Aabb box = bounds(scene);
     const float extent = max_component(box.max - box.min);
-    const float offset = std::max(ray_epsilon(box.min, extent), ray_epsilon(box.max, extent));
+    const float farthest = std::max(max_component(magnitudes(box.min)), max_component(magnitudes(box.max)));
+    const float offset = kOffsetAtOneMetre * farthest;
     if (offset > kVisibleOffset * extent) {
         notes.remark(scene.source, 0,
                      "the scene is " + short_text(extent) +

@@ -6,7 +6,6 @@
 #include "host/base/message.h"
 #include "host/base/short_text.h"
 #include "host/scene/camera.h"
-#include "host/scene/ray_epsilon.h"
 #include "host/stages/close_range.h"
 
 namespace nearlight::core {
@@ -51,14 +50,14 @@ View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& dev
 bool warn_of_width(const DeviceScene& scene, const View& view) {
     constexpr float kMaxPartOfRange = 1.0f / 200;
     const float extent = scene.host_info.extent;
-    const float offset = ray_epsilon({0, 0, 0}, extent);
+    const float offset = NEARLIGHT_SEGMENT_T_MIN * extent;
     if (offset <= kMaxPartOfRange * view.close_range.range) {
         return false;
     }
     say_warning("the scene is " + short_text(extent) +
-                " m wide, so that surfaces closer together than about " + short_text(offset) +
-                " m light each other too little; leave out what lies far away, such as the "
-                "rim of a large ground");
+                " m wide, so that light from its far parts passes by what is closer than about " +
+                short_text(offset) +
+                " m to a surface; leave out what lies far away, such as the rim of a large ground");
     return true;
 }
 

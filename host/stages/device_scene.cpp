@@ -121,10 +121,12 @@ bool is_map(const Material& material) {
 }
 
 SceneInfo describe(const Scene& scene, const EmitterTable& emitters) {
+    const Vec3 size = bounds(scene).size();
     return {.triangle_count = static_cast<uint>(scene.triangles.size()),
             .emitter_count = static_cast<uint>(emitters.emitters.size()),
             .delta_emitter_count = emitters.delta_emitter_count,
-            .extent = max_component(bounds(scene).size()),
+            .extent = max_component(size),
+            .size = size,
             .has_specular = std::ranges::any_of(
                 scene.materials, [&](const Material& material) { return has_specular(scene, material); }),
             .has_curves = scene.transmission_curves.size() > NEARLIGHT_CURVE_SIZE ? 1u : 0u,

@@ -166,9 +166,9 @@ static inline bool reflects_to_bundle(const FoundReflection* found, const Surfac
 
 /// Begins the bundle's path at the first surface of a receiver's ray, if it is one. Part of these paths end
 /// there: then no part of the surface is left.
-static inline BundlePath begin_bundle_path(const SceneView* scene, const FoundReflection* found, float3 x,
-                                           const SurfaceHit* hit, const SurfaceBsdf* surface, float model,
-                                           float u, Continuation* way) {
+static inline BundlePath begin_bundle_path(const FoundReflection* found, float3 x, const SurfaceHit* hit,
+                                           const SurfaceBsdf* surface, float model, float u,
+                                           Continuation* way) {
     const float3 y = off_surface(hit, hit->geometric);
     BundlePath path;
     path.is_one = reflects_to_bundle(found, surface, x, y, way);
@@ -330,8 +330,8 @@ OUTLINED bool pass_surface(const SceneView* scene, ContinuedPath* path, const Wa
     if (surfaces == 1) {
         surface = first_bsdf(scene, &path->hit, path->ray.direction, wanted,
                              (float2)(numbers.model, numbers.way), &path->way);
-        path->of_bundle = begin_bundle_path(scene, found, path->ray.from.x, &path->hit, &surface,
-                                            numbers.model, numbers.of_bundle, &path->way);
+        path->of_bundle = begin_bundle_path(found, path->ray.from.x, &path->hit, &surface, numbers.model,
+                                            numbers.of_bundle, &path->way);
         parts = path->way.parts;
         if (parts == 0 || path->way.max_edges < 2) {
             return false;

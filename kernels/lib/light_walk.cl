@@ -60,11 +60,10 @@ static inline float3 reflected_flux(const SceneView* scene, const EmittedParticl
 }
 
 /// The deposit of a particle: the VPL that it leaves where it landed.
-static inline Vpl make_deposit(const SceneView* scene, const MetSurface* at, uint depth, uint flags,
-                               float3 power) {
+static inline Vpl make_deposit(const MetSurface* at, uint depth, uint flags, float3 power) {
     const float3 normal = at->hit.geometric;
-    return make_vpl(off_surface(&at->hit, normal), normal, at->surface.frame.n,
-                    at->surface.bsdf.curve, depth, flags | mapped_flag(&at->surface), power);
+    return make_vpl(off_surface(&at->hit, normal), normal, at->surface.frame.n, at->surface.bsdf.curve, depth,
+                    flags | mapped_flag(&at->surface), power);
 }
 
 /// Whether light that arrives at a surface leaves it in more than a few single directions, so that a walk can

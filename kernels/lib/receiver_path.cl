@@ -74,8 +74,8 @@ static inline PathRay receiver_ray(const SceneView* scene, const ReceiverPoint* 
 
 /// The light at the place that a ray met, which sends `radiance` to all sides. Its weight in draws is what it
 /// brings to the receiver that found it, but not less than OTHER_PLACES says.
-static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit* hit, const Continuation* way,
-                                       float3 radiance, float of_vpls) {
+static inline SharedLight shared_light(const SurfaceHit* hit, const Continuation* way, float3 radiance,
+                                       float of_vpls) {
     SharedLight light;
     light.position = store3(off_surface(hit, hit->geometric));
     light.weight = max_component(radiance) * fmax(1.0f - of_vpls, OTHER_PLACES);
@@ -91,7 +91,7 @@ static inline SharedLight shared_light(const SceneView* scene, const SurfaceHit*
 static inline SharedLight sent_light(const SceneView* scene, const PathRay* ray, const SurfaceHit* hit,
                                      const Continuation* way, float3 brought, float of_vpls) {
     const float sent = diffuse_transmission(scene, way->curve, -dot(way->shading, ray->direction));
-    return shared_light(scene, hit, way, brought / (max_component(ray->throughput) * sent), of_vpls);
+    return shared_light(hit, way, brought / (max_component(ray->throughput) * sent), of_vpls);
 }
 
 static inline void offer_sky_along(const SceneView* scene, float3 x, float3 direction, uint4 keys,
@@ -118,8 +118,7 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
     if (!finds->veiled.is_wanted || !(to_unit_float(random_uint4(keys ^ 0x3a11u).x) < VEILED_PART)) {
         return (float3)(0.0f);
     }
-    const Veiling veiling =
-        veiling_between(finds->veils, at->x, off_surface(&behind, behind.geometric));
+    const Veiling veiling = veiling_between(finds->veils, at->x, off_surface(&behind, behind.geometric));
     const uint veils = veiling.count;
     if (veils == 0 || veils > NEARLIGHT_MAX_VEILS || limits->max_edges < veils + 2) {
         return (float3)(0.0f);

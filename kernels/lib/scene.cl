@@ -110,7 +110,7 @@ static inline float triangle_stand_off(const SceneView* scene, uint triangle_id)
     const float largest = max_component(magnitude);
     const float rounding = 1e-6f * (dot(n, magnitude) + dot(fmax(e1, e2), products) * inverse) +
                            5e-8f * largest +
-                           4e-7f * (n.x + n.y + n.z) * fmin(scene->info->extent, 64.0f * largest);
+                           4e-7f * dot(n, fmin(load3(scene->info->size), (float3)(64.0f * largest)));
     return fmin(rounding, 2e-5f * fmax(largest, 0.05f * scene->info->extent));
 }
 
@@ -193,8 +193,8 @@ static inline bool is_visible(const SceneView* scene, float3 from, float3 to) {
                           NEARLIGHT_SEGMENT_T_MAX);
 }
 
-/// The point off a surface where it was hit, on the side of the unit vector `side`, which is its normal or the
-/// opposite.
+/// The point off a surface where it was hit, on the side of the unit vector `side`, which is its normal or
+/// the opposite.
 static inline float3 off_surface(const SurfaceHit* hit, float3 side) {
     return hit->position + hit->stand_off * side;
 }

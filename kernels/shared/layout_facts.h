@@ -136,6 +136,7 @@
     OFFSET(WalkAim, opening_count)                  \
     SIZE(SceneInfo)                                 \
     OFFSET(SceneInfo, extent)                       \
+    OFFSET(SceneInfo, size)                         \
     OFFSET(SceneInfo, has_sky)                      \
     SIZE(BsdfQuery)                                 \
     OFFSET(BsdfQuery, choice)                       \

@@ -286,6 +286,7 @@ typedef struct SceneInfo {
     uint emitter_count;
     uint delta_emitter_count;   // delta lights: the first entries of the table
     float extent;               // largest side of the scene's bounds, m
+    Vec3 size;                  // sides of the bounds, m
     uint has_specular;          // 1: some surface reflects other than by a Lambertian part
     uint has_curves;            // 1: some surface has a transmission curve
     uint tree_first, tree_end;  // the lights of the tree of lights: entries of the table; equal: no tree
@@ -335,7 +336,7 @@ NEARLIGHT_CHECK_SHARED(ImportancePacket, 768);
 NEARLIGHT_CHECK_SHARED(GatherParams, 64);
 NEARLIGHT_CHECK_SHARED(CameraVertex, 80);
 NEARLIGHT_CHECK_SHARED(CloseRange, 96);
-NEARLIGHT_CHECK_SHARED(SceneInfo, 44);
+NEARLIGHT_CHECK_SHARED(SceneInfo, 56);
 }  // namespace nearlight::core
 #endif
 

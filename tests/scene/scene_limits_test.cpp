@@ -57,9 +57,9 @@ TEST(SceneLimits, LightThatCannotBeAddedUpIsDarkened) {
 }
 
 TEST(SceneLimits, ScenesFarFromTheOriginAreRemarked) {
-    Scene near = lit_square({50, 0, 0});
+    Scene near = lit_square({500, 0, 0});
     EXPECT_TRUE(notes_of(near).empty());
-    Scene far = lit_square({1000, 0, 0});
+    Scene far = lit_square({10000, 0, 0});
     const std::vector<Note> notes = notes_of(far, true);
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_EQ(

@@ -17,14 +17,16 @@ namespace nearlight::core::test {
 inline constexpr int kAgreementSize = 32;
 
 /// Compares the layers direct and indirect of several seeds with a path-traced picture, as convergence.h
-/// explains. If rays of receivers compensate for the clamp radius, the path tracer has none.
+/// explains. `truth_samples` are the path tracer's for each pixel: where its paths meet a lamp by chance, too
+/// few of them know nothing of their own noise. If rays of receivers compensate for the clamp radius, the
+/// path tracer has none.
 inline void expect_agreement(Device& device, const Scene& scene, SamplerKind sampler, float clamp_radius,
-                             bool compensate, uint max_depth = 6) {
+                             bool compensate, uint max_depth = 6, int truth_samples = 512) {
     SCOPED_TRACE(compensate ? "compensated" : "clamped");
     constexpr uint kSeeds = 16;
     const Image truth = trace_paths(scene, {.width = kAgreementSize,
                                             .height = kAgreementSize,
-                                            .spp = 512,
+                                            .spp = truth_samples,
                                             .max_depth = static_cast<int>(max_depth),
                                             .clamp_radius = compensate ? 0.0f : clamp_radius,
                                             .seed = 9});

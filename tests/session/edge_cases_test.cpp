@@ -67,6 +67,40 @@ TEST_F(EdgeCases, AWidthThatCostsLightIsToldOnce) {
     });
 }
 
+/// A floor below a roof of a millimetre, in a dome of the given radius (m) that shines.
+Scene shelter_in_dome(float radius) {
+    Scene scene;
+    const uint white = add_two_sided(scene, lambertian({0.7f, 0.7f, 0.7f}));
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, white);
+    add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white);
+    add_quad(scene, {-1, 1.001f, -1}, {0, 0, 2}, {2, 0, 0}, white);
+    Material shining = lambertian({0, 0, 0});
+    shining.emission = parameter_of(Vec3{1, 1, 1});
+    add_inward_sphere(scene, radius, 2, add_material(scene, shining));
+    set_camera(scene, {0, 0.4, 1.8}, {0, 0.6, 0}, 60);
+    scene.camera.width = 16;
+    scene.camera.height = 12;
+    return scene;
+}
+
+/// Where rays start is decided by what they leave, not by how wide the scene is.
+TEST_F(EdgeCases, AWideSurroundingChangesNothing) {
+    on_each_device([](Device& device) {
+        const auto mean_within = [&](float radius) {
+            const Scene scene = shelter_in_dome(radius);
+            Session session(device, scene);
+            double sum = 0;
+            for (uint seed = 0; seed < 6; ++seed) {
+                sum += indirect_mean(
+                    test::render_image(session, settings_of(SamplerKind::close_range, 300, seed)).image);
+            }
+            return sum / 6;
+        };
+        const double near = mean_within(10);
+        EXPECT_NEAR(mean_within(1000), near, 0.03 * near);
+    });
+}
+
 /// A budget too small for a good picture is kept, and still gives the right picture on average.
 TEST_F(EdgeCases, TinyBudgetsAreKeptAndRightOnAverage) {
     on_each_device([](Device& device) {

@@ -93,7 +93,7 @@ TEST_F(GlassAgreement, CompleteWithALampBehindVeilsAtAFewEdges) {
         for (const uint max_depth : {5u, 6u}) {
             SCOPED_TRACE(max_depth);
             test::expect_agreement(d, lamp_behind_veils(), SamplerKind::close_range, kGlassClampRadius, true,
-                                   max_depth);
+                                   max_depth, 2048);
         }
     });
 }

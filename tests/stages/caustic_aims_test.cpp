@@ -250,7 +250,7 @@ TEST_F(CausticAimsTest, AnyNumberOfRaysBringsTheSame) {
         const Scene scene = make_mirror_corner().scene;
         const auto sum_of = [&](uint aimed_rays, uint rays) {
             double sum = 0;
-            for (const double mean : received(device, scene, aimed_rays, rays, 128).mean) {
+            for (const double mean : received(device, scene, aimed_rays, rays, 1024).mean) {
                 sum += mean;
             }
             return sum;

@@ -88,7 +88,8 @@ TEST_F(PatchVplsTest, SidesThatReflectInTheRegionBecomeVpls) {
                     const Vec3 side = front ? sample.normal : -sample.normal;
                     const Vpl& vpl = result.vpls[i];
                     EXPECT_EQ(vpl.normal, side);
-                    EXPECT_NEAR(length(vpl.position - stand_off(sample.position, side, 4.0f)), 0.0f, 1e-6f);
+                    const float off = triangle_stand_off(scene, sample.triangle, bounds(scene).size());
+                    EXPECT_NEAR(length(vpl.position - (sample.position + side * off)), 0.0f, 1e-6f);
                     EXPECT_EQ(vpl.depth, 0u);
                     EXPECT_EQ(vpl.flags, NEARLIGHT_VPL_CLOSE);
                     ++present;

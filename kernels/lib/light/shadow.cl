@@ -80,8 +80,7 @@ OUTLINED float3 veil_transmittance(const SceneView* scene, const SurfaceHit* hit
 /// Where, along the unit direction of a ray that met a surface, one would start that leaves its other side. A
 /// ray that grazes the surface must not skip what stands on it.
 static inline float beyond_surface(const SurfaceHit* hit, float3 direction) {
-    return hit->t + hit->stand_off /
-                        fmax(fabs(dot(hit->geometric, direction)), NEARLIGHT_MIN_GRAZING_COSINE);
+    return hit->t + hit->stand_off / fmax(fabs(dot(hit->geometric, direction)), NEARLIGHT_MIN_GRAZING_COSINE);
 }
 
 /// The veils on a ray, and the part of light that they let through.
