@@ -12,7 +12,7 @@ constexpr uint kWalkCountPilotWalks = 512;
 /// as those of a light that shines past the scene, or if none of the pilot's does, as in a scene of metal and
 /// glass alone.
 constexpr uint kMaxWalksPerVpl = 256;
-constexpr double kMaxWalks = 1 << 24;
+constexpr double kMaxWalks = 1 << 22;
 constexpr double kMaxWalksIfNoneLands = 1 << 18;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 
