@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tests/stages/traced_walks.h"
 #include "tests/support/device_fixture.h"
@@ -221,6 +222,14 @@ double power_within(const std::vector<Vpl>& vpls, Vec3 center, float inner, floa
     return sum;
 }
 
+/// Expects what the plain reflects, one half of an even irradiance, between two distances from a place.
+void expect_even_light(const std::vector<Vpl>& vpls, double irradiance, Vec3 center, float inner, float outer,
+                       double tolerance) {
+    const double expected = 0.5 * irradiance * kPi * (outer * outer - inner * inner);
+    EXPECT_NEAR(power_within(vpls, center, inner, outer), expected, tolerance * expected)
+        << "from " << inner << " to " << outer;
+}
+
 /// Walks that aim bring the same light to every place, and more walks to the place at which they aim.
 TEST_F(LightEmissionTest, AimedWalksBringTheSameLightEverywhere) {
     const Vec3 center{20, 0, -30};
@@ -229,9 +238,7 @@ TEST_F(LightEmissionTest, AimedWalksBringTheSameLightEverywhere) {
     on_each_ray_tree([&](Device& device) {
         const std::vector<Vpl> vpls = trace_all(device, wide_plain(), walks);
         const auto expect_all = [&](float inner, float outer, double tolerance) {
-            const double expected = 0.5 * kPlainIrradiance * kPi * (outer * outer - inner * inner);
-            EXPECT_NEAR(power_within(vpls, center, inner, outer), expected, tolerance * expected)
-                << "from " << inner << " to " << outer;
+            expect_even_light(vpls, kPlainIrradiance, center, inner, outer, tolerance);
         };
         expect_all(0, 10, 0.02);
         expect_all(10, 25, 0.01);
@@ -269,9 +276,7 @@ TEST_F(LightEmissionTest, AimedWalksOfFarLampsBringTheSameLightEverywhere) {
     on_each_ray_tree([&](Device& device) {
         const std::vector<Vpl> vpls = trace_all(device, plain_in_dome(), walks);
         const auto expect_all = [&](float inner, float outer, double tolerance) {
-            const double expected = 0.5 * kDomeIrradiance * kPi * (outer * outer - inner * inner);
-            EXPECT_NEAR(power_within(vpls, center, inner, outer), expected, tolerance * expected)
-                << "from " << inner << " to " << outer;
+            expect_even_light(vpls, kDomeIrradiance, center, inner, outer, tolerance);
         };
         expect_all(0, 1, 0.03);
         expect_all(1, 2, 0.03);
@@ -301,10 +306,9 @@ TEST_F(LightEmissionTest, WalksThroughOpeningsBringTheSameLightEverywhere) {
             });
         };
         for (const Opening& opening : std::span(walks.aim.openings).first(2)) {
+            SCOPED_TRACE("an opening of radius " + std::to_string(opening.radius));
             const auto expect_all = [&](float inner, float outer, double tolerance) {
-                const double expected = 0.5 * kPlainIrradiance * kPi * (outer * outer - inner * inner);
-                EXPECT_NEAR(power_within(vpls, opening.center, inner, outer), expected, tolerance * expected)
-                    << "from " << inner << " to " << outer << " of radius " << opening.radius;
+                expect_even_light(vpls, kPlainIrradiance, opening.center, inner, outer, tolerance);
             };
             expect_all(0, opening.radius, 0.01);
             expect_all(opening.radius, 1.5f * opening.radius, 0.02);
