@@ -108,6 +108,30 @@ TEST_F(GltfLoader, IndicesMayBeSparse) {
     }
 }
 
+/// Primitives without proper attributes are left out, and the indices of later ones stay with these.
+TEST_F(GltfLoader, SparseIndicesStayWithTheirPrimitive) {
+    json& accessors = gltf_.root["accessors"];
+    json& primitives = gltf_.root["meshes"][0]["primitives"];
+    const json whole = primitives[0];
+    json sparse = whole;
+    sparse["indices"] = accessors.size();
+    accessors.push_back({{"componentType", 5123}, {"type", "SCALAR"}, {"count", 3}});
+    const json broken[] = {{{"mode", 4}}, {{"attributes", 3}}, {{"attributes", {{"POSITION", "0"}}}}};
+    for (const json& first : broken) {
+        // Each corner of the triangle without numbers is vertex 0.
+        primitives = {first, whole, sparse};
+        const Scene last = load();
+        ASSERT_EQ(last.triangles.size(), 3u) << first;
+        EXPECT_NE(corner(last, 0, 0), corner(last, 0, 1)) << first;
+        EXPECT_EQ(corner(last, 2, 0), corner(last, 2, 1)) << first;
+        primitives = {first, sparse, whole};
+        const Scene middle = load();
+        ASSERT_EQ(middle.triangles.size(), 3u) << first;
+        EXPECT_EQ(corner(middle, 0, 0), corner(middle, 0, 1)) << first;
+        EXPECT_NE(corner(middle, 2, 0), corner(middle, 2, 1)) << first;
+    }
+}
+
 TEST_F(GltfLoader, LaterVersionsAreRefused) {
     gltf_.root["asset"]["minVersion"] = "2.1";
     EXPECT_THAT(error(), HasSubstr("needs glTF 2.1"));

@@ -147,6 +147,14 @@ void drop_compressed_indices(Json& root) {
     }
 }
 
+/// Whether tinygltf keeps a primitive in its model. It leaves out those whose attributes are missing or no
+/// whole numbers, so that later ones move up.
+bool is_kept(const Json& primitive) {
+    return primitive.contains("attributes") && primitive["attributes"].is_object() &&
+           std::ranges::all_of(primitive["attributes"],
+                               [](const Json& accessor) { return accessor.is_number_integer(); });
+}
+
 /// Takes out indices whose accessor has no buffer view.
 std::vector<TakenIndices> take_indices(Json& root) {
     const std::vector<Json*> accessors = objects_of(root, "accessors");
@@ -159,6 +167,9 @@ std::vector<TakenIndices> take_indices(Json& root) {
     for (Json* const mesh : objects_of(root, "meshes")) {
         std::size_t primitive_number = 0;
         for (Json* const primitive : objects_of(*mesh, "primitives")) {
+            if (!is_kept(*primitive)) {
+                continue;
+            }
             if (primitive->contains("indices") && lacks_view((*primitive)["indices"])) {
                 taken.push_back({mesh_number, primitive_number, (*primitive)["indices"].get<int>()});
                 primitive->erase("indices");
