@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,25 @@
 #include "nearlight/error.h"
 
 namespace nearlight::core {
+
+namespace {
+
+/// Whether the file is what Git's extension for large files (LFS) leaves in the place of a file that was not
+/// fetched.
+bool is_lfs_pointer(const std::filesystem::path& file) {
+    constexpr std::string_view kBeginning = "version https://git-lfs.github.com/spec/";
+    constexpr std::uintmax_t kMaxSize = 1024;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error || size < kBeginning.size() || size >= kMaxSize) {
+        return false;
+    }
+    std::string bytes(kBeginning.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return bytes == kBeginning;
+}
+
+}  // namespace
 
 std::string lower_case_extension(const std::filesystem::path& file) {
     return lower_case(file.extension().string());
@@ -49,7 +69,8 @@ std::string reason_not_to_read(const std::filesystem::path& file) {
     std::error_code error;
     switch (fs::status(file, error).type()) {
         case fs::file_type::regular:
-            return "";
+            return is_lfs_pointer(file) ? "it only points to a file of Git LFS; 'git lfs pull' fetches that"
+                                        : "";
         case fs::file_type::not_found:
             return "no such file";
         case fs::file_type::directory:

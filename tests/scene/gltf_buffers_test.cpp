@@ -73,6 +73,8 @@ TEST_F(GltfBuffers, ThatAreTooShortAreRefused) {
 TEST_F(GltfBuffers, ThatAreNotThereAreNamed) {
     EXPECT_THAT(file_error([&] { load_uri("no such.bin"); }), HasSubstr("buffer 0 cannot be read: "));
     EXPECT_THAT(file_error([&] { load_uri("no%20such.bin"); }), HasSubstr("no such.bin: no such file"));
+    files_.write("pointer.bin", "version https://git-lfs.github.com/spec/v1\noid sha256:1f\nsize 1152\n");
+    EXPECT_THAT(file_error([&] { load_uri("pointer.bin"); }), HasSubstr("'git lfs pull'"));
     EXPECT_THAT(file_error([&] { load_uri("data:text/plain,abc"); }), HasSubstr("not in base64"));
     EXPECT_THAT(file_error([&] { load_scene(files_.write("scene.gltf", with_buffer(json::object()))); }),
                 HasSubstr("buffer 0 has no URI"));
