@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions from a surface to the spheres at which walks aim (lib/walk_aim.cl), and around them.
+// Directions from a surface, a lamp's or another, to the spheres at which walks aim (lib/walk_aim.cl), and
+// around them.
 //
-// A walk that lands far from such a sphere seldom finds it by chance, and one that does stands for much
-// light: the farther it comes from, the more. Such a VPL would outshine all others.
+// A walk that starts or lands far from such a sphere seldom finds it by chance, and one that does stands for
+// much light: the farther it comes from, the more. Such a VPL would outshine all others.
 #ifndef NEARLIGHT_LIB_AIM_CONE
 #define NEARLIGHT_LIB_AIM_CONE
 
@@ -29,9 +30,9 @@ static inline AimCone aim_cone(const AimTarget* target, float3 x) {
 }
 
 /// A direction towards the target, evenly over its cone, or around it in a cone of up to a hemisphere.
-static inline float3 aim_cone_sample(const AimCone* cone, float u, float2 v) {
-    const float height = u < PART_TOWARDS ? v.x * cone->height : cover_around(cone->height, 1.0f, v.x);
-    return to_world_frame(cone_direction(height, v.y), cone->axis);
+static inline float3 aim_cone_sample(const AimCone* cone, bool towards, float2 u) {
+    const float height = towards ? u.x * cone->height : cover_around(cone->height, 1.0f, u.x);
+    return to_world_frame(cone_direction(height, u.y), cone->axis);
 }
 
 /// The density of these directions per steradian.
@@ -47,7 +48,7 @@ static inline float aim_cone_pdf(const AimCone* cone, float3 direction) {
     return density / (2.0f * M_PI_F);
 }
 
-/// The targets that are of use to a walk which landed at x on a surface with this normal: those that are far,
+/// The targets that are of use to a walk that leaves x, on a surface with this normal: those that are far,
 /// partly above its horizon, and, if they are openings, seen from outside.
 static inline uint targets_for_surface(const WalkAim* aim, float3 x, float3 normal) {
     uint useful = 0;

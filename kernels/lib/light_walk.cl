@@ -85,7 +85,7 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const MetSurface*
     if (chosen != NO_AIM_TARGET) {
         const AimTarget target = aim_target(aim, chosen);
         const AimCone cone = aim_cone(&target, x);
-        sample.wi = aim_cone_sample(&cone, u, v);
+        sample.wi = aim_cone_sample(&cone, u < PART_TOWARDS, v);
         value = bsdf_eval(scene, &at->surface, sample.wi, BSDF_D | BSDF_S, &sample.pdf);
     } else {
         sample = bsdf_sample(scene, &at->surface, BSDF_D | BSDF_S, u, v);

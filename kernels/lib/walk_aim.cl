@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where walks aim (WalkAim): how they are divided between its sphere, its openings and all other ways.
 //
-// Walks aim in the same way where they enter the scene (lib/light/emission.cl) and where they go on from a
-// surface (lib/aim_cone.cl). Of those that aim at a target, half go towards it, evenly over what it covers.
-// The other half pass around it, because it may not hold all of the window through which its light comes:
-// each doubling of the circle around it gets as many. The density of a walk is always that of all ways
+// Walks aim in the same way where they enter the scene or leave a lamp (lib/light/emission.cl) and where they
+// go on from a surface (lib/aim_cone.cl). Of those that aim at a target, half go towards it, evenly over what
+// it covers. The other half pass around it, because it may not hold all of the window through which its light
+// comes: each doubling of the circle around it gets as many. The density of a walk is always that of all ways
 // together, so that none counts for much only because it came by an unlikely one.
 #ifndef NEARLIGHT_LIB_WALK_AIM
 #define NEARLIGHT_LIB_WALK_AIM
@@ -21,6 +21,14 @@
 #define PART_OPENINGS 0.5f
 /// The part of those that aim at a sphere which goes towards it; the others pass around it.
 #define PART_TOWARDS 0.5f
+
+/// Whether a walk that aims at a target goes towards it. Turns its number in [0, 1) into one that is uniform
+/// in [0, 1) for walks of the same answer.
+static inline bool goes_towards(float* u) {
+    const bool towards = *u < PART_TOWARDS;
+    *u = towards ? *u / PART_TOWARDS : (*u - PART_TOWARDS) / (1.0f - PART_TOWARDS);
+    return towards;
+}
 
 /// A sphere at which walks may aim: number 0 is the sphere that holds what the camera sees, and the openings
 /// follow.

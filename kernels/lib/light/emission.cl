@@ -38,9 +38,8 @@ static inline EmittedDirection sample_emitted_direction(const WalkAim* aim, floa
     } else {
         const AimTarget target = aim_target(aim, chosen);
         const AimCone cone = aim_cone(&target, x);
-        const bool towards = number < PART_TOWARDS;
-        const float rest = towards ? number / PART_TOWARDS : (number - PART_TOWARDS) / (1.0f - PART_TOWARDS);
-        emitted.direction = aim_cone_sample(&cone, number, (float2)(rest, u.y));
+        const bool towards = goes_towards(&number);
+        emitted.direction = aim_cone_sample(&cone, towards, (float2)(number, u.y));
     }
     if (parts.sum == 0.0f) {
         emitted.solid_angle = M_PI_F;
@@ -129,9 +128,10 @@ static inline AimShadow aim_shadow(const SceneView* scene, const AimTarget* targ
 
 /// The place of a walk that aims at the target: within its shadow, or around it.
 static inline float3 place_about(const AimShadow* shadow, float3 from, float2 u) {
-    const float squared = u.x < PART_TOWARDS ? shadow->min_squared * (u.x / PART_TOWARDS)
-                                             : cover_around(shadow->min_squared, shadow->max_squared,
-                                                            (u.x - PART_TOWARDS) / (1.0f - PART_TOWARDS));
+    float number = u.x;
+    const bool towards = goes_towards(&number);
+    const float squared = towards ? shadow->min_squared * number
+                                  : cover_around(shadow->min_squared, shadow->max_squared, number);
     return shadow->middle + to_world_frame((float3)(sqrt(squared) * circle_point(u.y), 0.0f), from);
 }
 
