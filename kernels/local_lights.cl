@@ -54,9 +54,9 @@ static inline OrientedPoint point_of_light(const global Vpl* light) {
     return point;
 }
 
-/// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their triangles,
-/// whose distances differ in one plane by less than this part of the ray epsilon, so that points of one plane
-/// have no more height.
+/// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their triangles. In
+/// one plane these distances differ by less than this part of the ray epsilon, unless a triangle is very much
+/// larger than the radius, so that points of one plane have no more height.
 static inline float local_geometry(const SceneView* scene, const OrientedPoint* receiver,
                                    const OrientedPoint* light, float radius) {
     const float3 to_receiver = receiver->position - light->position;
@@ -64,7 +64,7 @@ static inline float local_geometry(const SceneView* scene, const OrientedPoint* 
     const float height = dot(light->normal, to_receiver);
     const float cosine = -dot(receiver->normal, to_receiver);  // times the distance
     const bool open = squared < radius * radius && cosine > 0.0f &&
-                      height > 0.3f * ray_epsilon(light->position, scene->info->extent);
+                      height > 0.3f * epsilon_about(scene, light->position, radius);
     return open ? height * cosine / (squared * squared) : 0.0f;
 }
 

@@ -44,7 +44,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane
     // of y.
     const float height = dot(hit.geometric, origin - y);
-    if (is_black(albedo) || !(height > 0.3f * ray_epsilon(y, scene.info->extent))) {
+    if (is_black(albedo) || !(height > 0.3f * epsilon_about(&scene, y, hit.t))) {
         return;
     }
     // Depth 0 stands for light of all depths.

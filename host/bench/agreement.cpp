@@ -13,6 +13,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kCosineTolerance = 1e-5;  // below it, rounding decides the sign of a cosine
+constexpr double kMarginTolerance = 1e-6;  // rounding errors of coordinates, as a part of a segment's length
 constexpr double kMaxShare = 1e-5;         // maximum of the fraction of rays that may differ
 constexpr std::uint64_t kMaxItems = 100;   // of each tracer, because each item costs a look at every edge
 
@@ -24,22 +25,26 @@ double cosine(Vec3 normal, Vec3 direction) {
 
 }  // namespace
 
-Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges)
+Agreement::Agreement(const GatherSegments& segments, std::span<const BvhTriangle> triangles)
     : segments_(&segments),
-      edges_(edges),
+      triangles_(triangles),
       edge_tolerance_(kSegmentEdgeTolerance * max_component(bounds(segments.geometry).size())) {}
 
-/// Fills in the position of the pair and its distance from the nearest edge, and decides whether that excuses
-/// it.
+/// Fills in the position of the pair and how close a call it was, and decides whether that excuses it.
 bool Agreement::is_excused(Disagreement& item) const {
     const Vpl& vpl = segments_->vpls[item.vpl];
     const ReceiverPoint receiver = receiver_at(segments_->receivers[item.packet], item.lane);
     item.from = vpl.position;
     item.to = receiver.position;
     const Vec3 segment = item.to - item.from;
-    item.distance = item.is_culling ? std::min(cosine(vpl.normal, segment), cosine(receiver.normal, segment))
-                                    : distance_to_edges(edges_, item.from, item.to);
-    item.excused = item.distance <= (item.is_culling ? kCosineTolerance : edge_tolerance_);
+    if (item.is_culling) {
+        item.distance = std::min(cosine(vpl.normal, segment), cosine(receiver.normal, segment));
+        item.excused = item.distance <= kCosineTolerance;
+    } else {
+        item.distance = distance_to_edges(triangles_, item.from, item.to);
+        item.is_at_margin = distance_to_margins(triangles_, item.from, item.to) <= kMarginTolerance;
+        item.excused = item.distance <= edge_tolerance_ || item.is_at_margin;
+    }
     return item.excused;
 }
 

@@ -25,7 +25,9 @@ struct Disagreement {
     bool is_culling = false;
     bool tracer_says = false;  ///< the tracer found a hit; if is_culling: it traced the pair
     double distance = 0.0;  ///< from the segment to the nearest edge, m; if is_culling: the smaller |cosine|
-    bool excused = false;   ///< single precision explains it: the distance is small enough
+    /// The segment meets a triangle where its margin begins (distance_to_margins()).
+    bool is_at_margin = false;
+    bool excused = false;  ///< single precision explains it: the distance is small enough, or is_at_margin
 };
 
 /// How one tracer compares with the reference.
@@ -38,8 +40,9 @@ struct AgreementVerdict {
 /// Compares tracers with one reference.
 class Agreement {
   public:
-    /// Segments that pass near an edge of `edges` are excused. Both arguments must outlive this object.
-    Agreement(const GatherSegments& segments, std::span<const BvhTriangle> edges);
+    /// Segments that pass near an edge of the triangles, or meet one of them where their margin begins, are
+    /// excused. Both arguments must outlive this object.
+    Agreement(const GatherSegments& segments, std::span<const BvhTriangle> triangles);
 
     /// Adds the differences: occlusion of rays that both traced, and pairs that `answer` culls or traces
     /// contrary to the set of segments. `may_skip` allows culling, for tracers that leave rays out at random.
@@ -56,7 +59,7 @@ class Agreement {
     [[nodiscard]] bool is_excused(Disagreement& item) const;
 
     const GatherSegments* segments_;
-    std::span<const BvhTriangle> edges_;
+    std::span<const BvhTriangle> triangles_;
     double edge_tolerance_;
     std::vector<Disagreement> items_;
 };

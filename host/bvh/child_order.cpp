@@ -116,7 +116,7 @@ struct SurfacePoint {
 class Surfaces {
   public:
     Surfaces(const Scene& scene, std::span<const uint> ids)
-        : scene_(scene), ids_(ids), extent_(max_component(bounds(scene).size())) {
+        : scene_(scene), ids_(ids), size_(bounds(scene).size()) {
         cumulative_.resize(ids.size());
         parallel_for(ids.size(), kNodeGrain, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
@@ -131,21 +131,23 @@ class Surfaces {
     [[nodiscard]] SurfacePoint pick(Pcg32& random) const {
         const double wanted = random.uniform() * cumulative_.back();
         const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, wanted);
-        const Triangle& triangle = scene_.triangles[ids_[static_cast<std::size_t>(at - cumulative_.begin())]];
+        const uint id = ids_[static_cast<std::size_t>(at - cumulative_.begin())];
+        const Triangle& triangle = scene_.triangles[id];
         const Vec3 v0 = scene_.vertices[triangle.v0].position;
         const Vec3 edge1 = scene_.vertices[triangle.v1].position - v0;
         const Vec3 edge2 = scene_.vertices[triangle.v2].position - v0;
         const float root = std::sqrt(random.uniform());
         const float v = root * random.uniform();
         const Vec3 normal = normalize(cross(edge1, edge2));
-        return {stand_off(v0 + edge1 * (1.0f - root) + edge2 * v, normal, extent_), normal};
+        const float off = triangle_stand_off(scene_, id, size_);
+        return {v0 + edge1 * (1.0f - root) + edge2 * v + normal * off, normal};
     }
 
   private:
     const Scene& scene_;
     std::span<const uint> ids_;
     std::vector<double> cumulative_;
-    float extent_;
+    Vec3 size_;  ///< of the scene's bounds, m
 };
 
 std::vector<TestRay> make_segments(const Surfaces& surfaces, std::size_t count) {

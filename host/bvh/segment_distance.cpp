@@ -2,6 +2,7 @@
 #include "host/bvh/segment_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "host/base/vec3d.h"
@@ -36,6 +37,29 @@ double segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1) {
     s = nearest(q + t * e, p, d);
     t = nearest(p + s * d, q, e);
     return length((p + s * d) - (q + t * e));
+}
+
+double distance_to_margins(std::span<const BvhTriangle> triangles, Vec3 from, Vec3 to) {
+    const Vec3d origin = as_double(from);
+    const Vec3d way = as_double(to) - origin;
+    double min_distance = std::numeric_limits<double>::infinity();
+    for (const BvhTriangle& triangle : triangles) {
+        const Vec3d edge1 = as_double(triangle.edge1);
+        const Vec3d edge2 = as_double(triangle.edge2);
+        const Vec3d normal = cross(edge1, edge2);
+        const double fall = dot(normal, way);
+        const Vec3d offset = as_double(triangle.v0) - origin;
+        const double t = dot(normal, offset) / fall;
+        const Vec3d across = cross(offset, way);
+        const double u = dot(across, edge2) / fall;
+        const double v = -dot(across, edge1) / fall;
+        if (t > 0.0 && t < 1.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0) {
+            const double cosine = std::abs(fall) / (length(normal) * length(way));
+            min_distance = std::min({min_distance, cosine * std::abs(t - double{NEARLIGHT_SEGMENT_T_MIN}),
+                                     cosine * std::abs(t - double{NEARLIGHT_SEGMENT_T_MAX})});
+        }
+    }
+    return min_distance;
 }
 
 double distance_to_edges(std::span<const BvhTriangle> triangles, Vec3 from, Vec3 to) {

@@ -59,6 +59,7 @@ nlohmann::ordered_json to_json(const Disagreement& item) {
             {"about", item.is_culling ? "culling" : "occlusion"},
             {"tracer_says", item.tracer_says},
             {item.is_culling ? "least_cosine" : "edge_distance", item.distance},
+            {"at_margin", item.is_at_margin},
             {"excused", item.excused}};
 }
 

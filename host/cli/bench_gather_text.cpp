@@ -13,10 +13,10 @@ std::string line_of(const Disagreement& item) {
         item.is_culling ? (item.tracer_says ? "traces" : "culls") : (item.tracer_says ? "hits" : "passes");
     return fmt::format(
         "  {} {} packet {} lane {} VPL {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), {} "
-        "{:.3g}{}\n",
+        "{:.3g}{}{}\n",
         item.tracer, says, item.packet, item.lane, item.vpl, item.from.x, item.from.y, item.from.z, item.to.x,
         item.to.y, item.to.z, item.is_culling ? "cosine" : "nearest edge at", item.distance,
-        item.excused ? "" : ", TOO FAR");
+        item.is_at_margin ? ", meets a triangle at its end" : "", item.excused ? "" : ", TOO FAR");
 }
 
 std::string head(const std::string& name, BvhQuality bvh, const GatherBenchResult& result) {

@@ -43,7 +43,7 @@ Vec3 triangle_point(const Scene& scene, const Triangle& triangle, float u, float
 
 class PointMaker {
   public:
-    explicit PointMaker(const Scene& scene) : scene_(scene), extent_(max_component(bounds(scene).size())) {}
+    explicit PointMaker(const Scene& scene) : scene_(scene), size_(bounds(scene).size()) {}
 
     /// A point a small distance off the surface, on the side that a ray along `direction` hits.
     [[nodiscard]] ReceiverPoint at_hit(const BvhHit& hit, Vec3 direction) const {
@@ -52,19 +52,23 @@ class PointMaker {
         if (dot(normal, direction) > 0.0f) {
             normal = -normal;
         }
-        return {stand_off(triangle_point(scene_, triangle, hit.u, hit.v), normal, extent_), normal};
+        return off_triangle(hit.triangle, hit.u, hit.v, normal);
     }
-    [[nodiscard]] ReceiverPoint on_front(const Triangle& triangle, Pcg32& random) const {
+    [[nodiscard]] ReceiverPoint on_front(uint triangle, Pcg32& random) const {
         const float root = std::sqrt(random.uniform());
         const float u = 1.0f - root;
         const float v = root * random.uniform();
-        const Vec3 normal = triangle_normal(scene_, triangle);
-        return {stand_off(triangle_point(scene_, triangle, u, v), normal, extent_), normal};
+        return off_triangle(triangle, u, v, triangle_normal(scene_, scene_.triangles[triangle]));
     }
 
   private:
+    [[nodiscard]] ReceiverPoint off_triangle(uint triangle, float u, float v, Vec3 normal) const {
+        const float off = triangle_stand_off(scene_, triangle, size_);
+        return {triangle_point(scene_, scene_.triangles[triangle], u, v) + normal * off, normal};
+    }
+
     const Scene& scene_;
-    float extent_;
+    Vec3 size_;  ///< of the scene's bounds, m
 };
 
 Vec3 sphere_direction(Pcg32& random) {
@@ -90,7 +94,7 @@ BvhHit closest_hit(const Bvh& bvh, const RayQuery& ray) {
 RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
     if (is_area_light(emitter)) {
         const uint offset = emitter.triangle_count > 1 ? random.next() % emitter.triangle_count : 0;
-        const ReceiverPoint point = points.on_front(scene.triangles[emitter.triangle + offset], random);
+        const ReceiverPoint point = points.on_front(emitter.triangle + offset, random);
         return endless_ray(point.position, cosine_direction(point.normal, random));
     }
     return endless_ray(emitter.position, sphere_direction(random));
@@ -178,7 +182,7 @@ std::vector<Vpl> spread_over_surfaces(const Scene& scene, std::size_t count, Pcg
         const double wanted = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count) * area;
         const auto at =
             std::upper_bound(cumulative.begin(), cumulative.end() - 1, wanted) - cumulative.begin();
-        vpls.push_back(make_vpl(points.on_front(scene.triangles[static_cast<std::size_t>(at)], random), 1));
+        vpls.push_back(make_vpl(points.on_front(static_cast<uint>(at), random), 1));
     }
     return vpls;
 }

@@ -42,7 +42,7 @@ LightPick round_pick(const Emitter& emitter, const Seen& seen, Point2 u, float e
     }
     pick.direction = seen.sample(u);
     const Vec3 entry = seen.entry(pick.direction);
-    pick.target = stand_off(entry, seen.outwards(entry), extent_about(entry, emitter.radius, extent));
+    pick.target = moved_off(entry, seen.outwards(entry), extent_about(entry, emitter.radius, extent));
     pick.density = seen.density(pick.direction);
     if (pick.density > 0.0) {
         pick.radiance = emitter.radiance;

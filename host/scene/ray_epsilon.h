@@ -23,7 +23,7 @@ inline float ray_epsilon(Vec3 p, float extent) {
 
 /// The point p moved off its surface by ray_epsilon() along the unit geometric normal, which points to the
 /// side on which the ray continues.
-inline Vec3 stand_off(Vec3 p, Vec3 normal, float extent) {
+inline Vec3 moved_off(Vec3 p, Vec3 normal, float extent) {
     return p + normal * ray_epsilon(p, extent);
 }
 
@@ -55,7 +55,7 @@ inline float triangle_stand_off(Vec3 a, Vec3 b, Vec3 c, Vec3 scene_size) {
     const float rounding = 1e-6f * (dot(n, magnitude) + dot(max(e1, e2), products) * inverse) +
                            5e-8f * largest +
                            4e-7f * dot(n, min(scene_size, Vec3{1, 1, 1} * (64.0f * largest)));
-    const float most = 2e-5f * std::max(largest, 0.05f * max_component(scene_size));
+    const float most = ray_epsilon(magnitude, max_component(scene_size));
     return rounding < most ? rounding : most;
 }
 

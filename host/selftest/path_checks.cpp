@@ -23,7 +23,7 @@ namespace {
 
 /// Receivers at the centres of 64 triangles, spread evenly over the scene's list.
 std::vector<ReceiverPacket> receivers_on(const Scene& scene) {
-    const float extent = max_component(bounds(scene).size());
+    const Vec3 scene_size = bounds(scene).size();
     std::vector<ReceiverPacket> packets(1);
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
         const Triangle& t = scene.triangles[lane * scene.triangles.size() / NEARLIGHT_PACKET_SIZE];
@@ -31,7 +31,8 @@ std::vector<ReceiverPacket> receivers_on(const Scene& scene) {
         const Vec3 b = scene.vertices[t.v1].position;
         const Vec3 c = scene.vertices[t.v2].position;
         const Vec3 n = normalize(cross(b - a, c - a));
-        set_receiver(packets[0], lane, {stand_off((a + b + c) / 3.0f, n, extent), n});
+        const float off = triangle_stand_off(a, b, c, scene_size);
+        set_receiver(packets[0], lane, {(a + b + c) / 3.0f + n * off, n});
     }
     return packets;
 }

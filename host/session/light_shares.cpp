@@ -64,7 +64,7 @@ class ShareMaker {
     ShareMaker(const Scene& scene, const LitPoint& point, float extent)
         : scene_(scene),
           point_(point),
-          start_(stand_off(point.position, point.normal, extent)),
+          start_(moved_off(point.position, point.normal, extent)),
           random_(point.seed) {}
 
     void add_vpl(const Vpl& vpl) {

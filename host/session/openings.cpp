@@ -70,9 +70,9 @@ class PathFollower {
                 if (hits[i].slot == ~0u || is_outside(place)) {
                     lines_.push_back(line);
                 } else if (lets_through_[triangle_of(hits[i]).material]) {
-                    behind.push_back({line, hits[i].t + epsilon(place)});
+                    behind.push_back({line, hits[i].t + 4 * stand_off(hits[i])});
                 } else {
-                    next.push_back({scattered(line.direction, place, triangle_of(hits[i]), random)});
+                    next.push_back({scattered(line.direction, place, hits[i], random)});
                 }
             }
             rays = std::move(behind);
@@ -98,14 +98,15 @@ class PathFollower {
     [[nodiscard]] bool is_outside(Vec3 place) const {
         return length(place - surroundings_.origin) > kOutsideInRadii * surroundings_.range;
     }
-    [[nodiscard]] float epsilon(Vec3 place) const {
-        return 4 * ray_epsilon(place, on_device_.host_info.extent);
+    [[nodiscard]] float stand_off(const RayHit& hit) const {
+        return triangle_stand_off(scene_, triangle_ids_[hit.slot], on_device_.host_info.size);
     }
-    [[nodiscard]] HalfLine scattered(Vec3 arriving, Vec3 place, const Triangle& t, Pcg32& random) const {
+    [[nodiscard]] HalfLine scattered(Vec3 arriving, Vec3 place, const RayHit& hit, Pcg32& random) const {
+        const Triangle& t = triangle_of(hit);
         const auto corner = [&](uint vertex) { return scene_.vertices[vertex].position; };
         Vec3 normal = normalize(cross(corner(t.v1) - corner(t.v0), corner(t.v2) - corner(t.v0)));
         normal = dot(normal, arriving) > 0.0f ? -normal : normal;
-        return {stand_off(place, normal, on_device_.host_info.extent), cosine_direction(normal, random)};
+        return {place + normal * stand_off(hit), cosine_direction(normal, random)};
     }
 
     Device& device_;

@@ -32,7 +32,7 @@ std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<
     std::vector<ReceiverPacket> packets(receiver_packet_count(points.size()));
     for (std::size_t i = 0; i < points.size(); ++i) {
         set_receiver(packets[i / NEARLIGHT_PACKET_SIZE], i % NEARLIGHT_PACKET_SIZE,
-                     {stand_off(points[i], normals[i], extent), normals[i]});
+                     {moved_off(points[i], normals[i], extent), normals[i]});
     }
     return packets;
 }

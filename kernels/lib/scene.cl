@@ -111,7 +111,7 @@ static inline float triangle_stand_off(const SceneView* scene, uint triangle_id)
     const float rounding = 1e-6f * (dot(n, magnitude) + dot(fmax(e1, e2), products) * inverse) +
                            5e-8f * largest +
                            4e-7f * dot(n, fmin(load3(scene->info->size), (float3)(64.0f * largest)));
-    return fmin(rounding, 2e-5f * fmax(largest, 0.05f * scene->info->extent));
+    return fmin(rounding, ray_epsilon(magnitude, scene->info->extent));
 }
 
 /// The surface at a point of a triangle, met from the front or from the back. `normal` is that of the
@@ -199,11 +199,17 @@ static inline float3 off_surface(const SurfaceHit* hit, float3 side) {
     return hit->position + hit->stand_off * side;
 }
 
+/// ray_epsilon() of a point in a scene of which only what lies about it counts: a neighbourhood of this
+/// radius. However wide the surroundings of a table are, they change nothing on it.
+static inline float epsilon_about(const SceneView* scene, float3 point, float radius) {
+    const float extent = fmin(scene->info->extent, 40.0f * (max_component(fabs(point)) + radius));
+    return ray_epsilon(point, extent);
+}
+
 /// A point on a sphere or cylinder that emits, moved off it along `outwards`.
 static inline float3 off_round_light(const SceneView* scene, const global Emitter* light, float3 point,
                                      float3 outwards) {
-    const float about = 40.0f * (max_component(fabs(point)) + light->radius);
-    return point + ray_epsilon(point, fmin(scene->info->extent, about)) * outwards;
+    return point + epsilon_about(scene, point, light->radius) * outwards;
 }
 
 /// The point off a surface from which a ray in the given direction starts.

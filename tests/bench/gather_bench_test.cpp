@@ -183,6 +183,20 @@ TEST(Agreement, RefusesARayThatIsWrongAwayFromEdges) {
     EXPECT_EQ(item.tracer_says, (wrong.occluded[word] & lane) != 0);
 }
 
+/// A segment of 5 m that meets a large triangle at the given distance before its end, and nothing else.
+double margin_distance(float before_end) {
+    const Vec3 corner{-10, -10, 5.0f - before_end};
+    const BvhTriangle triangle{corner, {40, 0, 0}, {0, 40, 0}, {0, 0, 1600}};
+    return distance_to_margins({&triangle, 1}, {0, 0, 0}, {0, 0, 5});
+}
+
+TEST(Agreement, ExcusesTrianglesWhereMarginsBegin) {
+    EXPECT_LT(margin_distance(5e-6f), 2e-7);           // a millionth of 5 m
+    EXPECT_NEAR(margin_distance(1e-4f), 19e-6, 1e-6);  // 20 − 1 millionths
+    EXPECT_NEAR(margin_distance(4.0f), 0.2, 1e-5);
+    EXPECT_TRUE(std::isinf(margin_distance(-1e-6f)));  // beyond the end
+}
+
 TEST(Agreement, RefusesMoreDifferencesThanItsShare) {
     const Answered room;
     Agreement agreement(room.segments, room.bvh.triangles);

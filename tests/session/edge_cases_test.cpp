@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samplers that consider the camera in extreme cases: tiny budgets, an empty view, no light.
+// Samplers in extreme cases: tiny budgets, an empty view, no light, and scenes far wider than what is seen.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "host/base/message.h"
@@ -86,18 +87,20 @@ Scene shelter_in_dome(float radius) {
 /// Where rays start is decided by what they leave, not by how wide the scene is.
 TEST_F(EdgeCases, AWideSurroundingChangesNothing) {
     on_each_device([](Device& device) {
-        const auto mean_within = [&](float radius) {
+        const auto mean_within = [&](float radius, SamplerKind sampler) {
             const Scene scene = shelter_in_dome(radius);
             Session session(device, scene);
             double sum = 0;
             for (uint seed = 0; seed < 6; ++seed) {
-                sum += indirect_mean(
-                    test::render_image(session, settings_of(SamplerKind::close_range, 300, seed)).image);
+                sum += indirect_mean(test::render_image(session, settings_of(sampler, 300, seed)).image);
             }
             return sum / 6;
         };
-        const double near = mean_within(10);
-        EXPECT_NEAR(mean_within(1000), near, 0.03 * near);
+        for (const SamplerKind sampler :
+             {SamplerKind::close_range, SamplerKind::bidirectional, SamplerKind::local}) {
+            const double near = mean_within(10, sampler);
+            EXPECT_NEAR(mean_within(1000, sampler), near, 0.03 * near) << to_string(sampler);
+        }
     });
 }
 

@@ -58,7 +58,7 @@ std::vector<ReceiverPacket> receivers_in_corner() {
         const Vec3 normal = i % 3 == 0 ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
         const Vec3 position = i % 3 == 0 ? Vec3{a, b, 1} : Vec3{a, 0, 1 - b};
         const bool absent = i % 5 == 4 || i >= 2 * NEARLIGHT_PACKET_SIZE;
-        points.push_back({stand_off(position, normal, kExtent), absent ? Vec3{0, 0, 0} : normal});
+        points.push_back({moved_off(position, normal, kExtent), absent ? Vec3{0, 0, 0} : normal});
     }
     return test::pack_receivers(points);
 }

@@ -48,7 +48,7 @@ std::vector<Importon> points_in_room() {
         const float b = 0.35f + 0.6f * random.uniform();
         const Vec3 normal = i % 2 == 0 ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
         const Vec3 position = i % 2 == 0 ? Vec3{a, -1, b} : Vec3{a, b, 1};
-        points.push_back({.position = stand_off(position, normal, kExtent),
+        points.push_back({.position = moved_off(position, normal, kExtent),
                           .pad0 = 0,
                           .normal = normal,
                           .flags = 2,
