@@ -160,8 +160,8 @@ void check(const PassChoice& choice) {
     const RayBudget& budget = choice.ray_budget;
     const float numbers[] = {choice.range, budget.clamp_radius, budget.shared_limit};
     const auto is_sound = [](float number) { return std::isfinite(number) && number >= 0.0f; };
-    if (!std::ranges::all_of(numbers, is_sound) || budget.direct_samples_per_pixel > kMaxLightSamples ||
-        budget.aimed_rays > kMaxAimedRays) {
+    if (!std::ranges::all_of(numbers, is_sound) || budget.direct_samples_per_pixel == 0 ||
+        budget.direct_samples_per_pixel > kMaxLightSamples || budget.aimed_rays > kMaxAimedRays) {
         throw std::out_of_range("choice");
     }
 }

@@ -143,10 +143,10 @@ std::optional<Acceptance> choose_acceptance(const std::vector<float>& contributi
     return acceptance;
 }
 
-/// The number of walks that leave about task.vpl_count accepted candidates.
+/// The number of walks that leave about task.vpl_count accepted candidates, or kMaxWalks if that is less.
 uint choose_walk_count(const SamplingTask& task, const Pilot& pilot, const Acceptance& acceptance) {
     const double accepted_per_walk = acceptance.expected(pilot.contributions) / pilot.walk_count;
-    return static_cast<uint>(std::clamp(std::round(task.vpl_count / accepted_per_walk), 1.0, 1e8));
+    return static_cast<uint>(std::clamp(std::round(task.vpl_count / accepted_per_walk), 1.0, kMaxWalks));
 }
 
 }  // namespace

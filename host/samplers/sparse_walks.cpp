@@ -8,11 +8,10 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kWalkCountPilotWalks = 512;
-/// The maximum number of walks, per wanted VPL and in all. They bound the time if hardly any walk lands, such
-/// as those of a light that shines past the scene, or if none of the pilot's does, as in a scene of metal and
-/// glass alone.
+/// The maximum number of walks per wanted VPL, which bounds the time if hardly any walk lands, such as those
+/// of a light that shines past the scene; and the maximum in all if none of the pilot's does, as in a scene
+/// of metal and glass alone.
 constexpr uint kMaxWalksPerVpl = 256;
-constexpr double kMaxWalks = 1 << 22;
 constexpr double kMaxWalksIfNoneLands = 1 << 18;
 constexpr uint kWalkCountPilotSeed = 0x9107u;
 

@@ -8,6 +8,9 @@
 
 namespace nearlight::core {
 
+/// The maximum number of walks for a set of VPLs. It bounds the time if hardly any walk leaves one.
+inline constexpr double kMaxWalks = 1 << 22;
+
 /// Makes a close region without triangles, so that no deposit is close.
 CloseRegion empty_region(SamplerStages& stages, const DeviceScene& scene);
 
