@@ -9,7 +9,7 @@
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/image/exposure_meter.h"
-#include "host/session/frame_walk.h"
+#include "host/session/frame_sequence.h"
 #include "host/stages/film_layers.h"
 
 namespace nearlight::core {
@@ -31,7 +31,8 @@ void check_frames(const RenderOptions& options) {
     }
 }
 
-/// What a run has of a walk. The scene's hash is computed in the background, where it must not change.
+/// What a run has of a sequence of frames. The scene's hash is computed in the background, where it must not
+/// change.
 FrameSource source_for(RenderRun& run, const RenderOptions& options) {
     const auto scene_at = [&options](const SceneMoment& moment) {
         SceneOptions scene = options.scene;
@@ -50,13 +51,13 @@ FrameSource source_for(RenderRun& run, const RenderOptions& options) {
 }
 
 /// Makes the run that of a frame.
-void go_to(FrameWalk& walk, RenderRun& run, const RenderOptions& options, int frame) {
-    walk.go_to(frame, run.settings.view, run.settings.sampling);
+void go_to(FrameSequence& sequence, RenderRun& run, const RenderOptions& options, int frame) {
+    sequence.go_to(frame, run.settings.view, run.settings.sampling);
     const RenderOptions of_frame = options_of(options, frame);
     run.options.picture.outputs = of_frame.picture.outputs;
     run.options.scene.moment = of_frame.scene.moment;
     run.frame = FrameFacts{.frame = frame};
-    for (const KeyView& view : walk.views()) {
+    for (const KeyView& view : sequence.views()) {
         std::string& text = run.frame->vpl_keys;
         text += fmt::format("{}{}:{:.4g}", text.empty() ? "" : " ", view.frame, view.weight);
     }
@@ -89,11 +90,11 @@ float metered(Session& session, const SceneCamera& camera, const RenderSettings&
 
 /// The exposure that the first moment of the animation asks for, in stops, which frames share so that their
 /// brightness does not flicker.
-float shared_exposure(FrameWalk& walk, const RenderRun& run, const RenderOptions& options) {
+float shared_exposure(FrameSequence& sequence, const RenderRun& run, const RenderOptions& options) {
     SceneOptions begin = options.scene;
     begin.moment = SceneMoment{run.scene->animation->begin, options.frames.animation.animations};
     if (const std::optional<SceneCamera> camera = camera_at(*run.scene, begin)) {
-        return metered(walk.session(), *camera, run.settings);
+        return metered(sequence.session(), *camera, run.settings);
     }
     const Scene scene = load_scene(begin);
     Session session(run.plain_devices(), scene, options.session);
@@ -128,16 +129,16 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
         RenderRun run = get_ready(first, global, choice);
         tell_range(options.frames, *run.scene);
         catch_interrupts();
-        FrameWalk walk(source_for(run, options), options.frames.animation, run.plain_devices(),
-                       options.session, run.scene, frames.front());
+        FrameSequence sequence(source_for(run, options), options.frames.animation, run.plain_devices(),
+                               options.session, run.scene, frames.front());
         Stopwatch total = whole;
         for (const int frame : frames) {
             if (interrupted()) {
                 break;
             }
-            go_to(walk, run, options, frame);
+            go_to(sequence, run, options, frame);
             if (frame == frames.front() && has_screen_pictures(options.picture) && !run.look().exposure) {
-                const float exposure = shared_exposure(walk, run, options);
+                const float exposure = shared_exposure(sequence, run, options);
                 if (interrupted()) {
                     break;
                 }
@@ -145,7 +146,8 @@ ExitCode render_frames(const RenderOptions& options, const GlobalOptions& global
                 spdlog::info("exposure {:+.2f} stops (automatic) in all frames", exposure);
             }
             sinks.picture.set_outputs(run.options.picture.outputs);
-            MadePicture picture = make_picture(walk.session(), run, {.vpls = walk.vpl_maker()}, sinks, total);
+            MadePicture picture =
+                make_picture(sequence.session(), run, {.vpls = sequence.vpl_maker()}, sinks, total);
             if (picture.report.interrupted) {
                 break;
             }

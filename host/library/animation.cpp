@@ -6,7 +6,7 @@
 #include "host/library/checks.h"
 #include "host/library/parts.h"
 #include "host/library/states.h"
-#include "host/session/frame_walk.h"
+#include "host/session/frame_sequence.h"
 #include "nearlight/error.h"
 
 namespace nearlight {
@@ -38,12 +38,12 @@ struct Animation::State {
         : devices(std::move(on_devices)),
           scene(std::make_unique<core::Scene>(load_core_scene(file, load, core::moment_of(options, 0)))),
           span(scene->animation.value()),
-          walk(source_of(file, load), options, devices->plain(), session, scene) {}
+          sequence(source_of(file, load), options, devices->plain(), session, scene) {}
 
     std::shared_ptr<Devices::State> devices;
     std::unique_ptr<core::Scene> scene;
     core::TimeSpan span;
-    core::FrameWalk walk;  ///< declared last, because it refers to the others
+    core::FrameSequence sequence;  ///< declared last, because it refers to the others
 };
 
 Animation::Animation(const Devices& devices, const std::filesystem::path& file,
@@ -68,9 +68,9 @@ double Animation::end() const {
 Picture Animation::render(int frame, const RenderSettings& settings, const Progress& progress) {
     check_frame(frame);
     check(settings);
-    core::FrameWalk& walk = state_->walk;
-    walk.go_to(frame, settings.view, settings.sampling);
-    return render_picture(walk.session(), settings, progress, walk.vpl_maker());
+    core::FrameSequence& sequence = state_->sequence;
+    sequence.go_to(frame, settings.view, settings.sampling);
+    return render_picture(sequence.session(), settings, progress, sequence.vpl_maker());
 }
 
 }  // namespace nearlight

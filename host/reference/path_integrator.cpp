@@ -14,7 +14,7 @@ constexpr double kMaxSurvival = 0.95;
 }  // namespace
 
 /// A path on its way.
-struct PathIntegrator::Walk {
+struct PathIntegrator::PathState {
     enum class Stage {
         chain,     ///< all vertices so far scattered by S
         receiver,  ///< the last vertex is the receiver
@@ -66,8 +66,8 @@ PathIntegrator::VertexRandom PathIntegrator::vertex_random(SampleBatch& batch, i
 PathIntegrator::PathIntegrator(const Scene& scene, int max_depth, float clamp_radius)
     : scene_(scene), max_depth_(max_depth), clamp_radius_(clamp_radius), embree_(scene), lights_(scene) {}
 
-bool PathIntegrator::only_diffuse(const Walk& walk) const {
-    return clamp_radius_ > 0.0f && walk.stage == Walk::Stage::receiver;
+bool PathIntegrator::only_diffuse(const PathState& state) const {
+    return clamp_radius_ > 0.0f && state.stage == PathState::Stage::receiver;
 }
 
 Vec3 PathIntegrator::beside(const Surface& surface, Vec3 direction) const {
@@ -77,25 +77,25 @@ Vec3 PathIntegrator::beside(const Surface& surface, Vec3 direction) const {
 }
 
 // Emission that a ray meets was scattered once less than light sampled at the vertex before.
-void PathIntegrator::add_emission(const Walk& walk, const BvhHit& hit, PathLight& light) const {
-    const Vec3 emitted = hit.triangle == ~0u ? lights_.environment_radiance(walk.ray.direction)
-                                             : lights_.emitted_radiance(hit, walk.ray.direction);
+void PathIntegrator::add_emission(const PathState& state, const BvhHit& hit, PathLight& light) const {
+    const Vec3 emitted = hit.triangle == ~0u ? lights_.environment_radiance(state.ray.direction)
+                                             : lights_.emitted_radiance(hit, state.ray.direction);
     if (is_zero(emitted)) {
         return;
     }
     double weight = 1;
-    if (walk.density > 0 && walk.veils <= NEARLIGHT_MAX_VEILS) {
+    if (state.density > 0 && state.veils <= NEARLIGHT_MAX_VEILS) {
         BvhHit seen = hit;
-        seen.t += static_cast<float>(walk.passed);
-        const double other = lights_.pdf(walk.scattered_at, walk.ray.direction, seen);
-        weight = walk.density / (walk.density + other);
+        seen.t += static_cast<float>(state.passed);
+        const double other = lights_.pdf(state.scattered_at, state.ray.direction, seen);
+        weight = state.density / (state.density + other);
     }
-    Vec3d& layer = walk.stage == Walk::Stage::beyond ? light.indirect : light.direct;
-    layer += walk.throughput * as_double(emitted) * weight;
+    Vec3d& layer = state.stage == PathState::Stage::beyond ? light.indirect : light.direct;
+    layer += state.throughput * as_double(emitted) * weight;
 }
 
 // One light, as the parts of the BSDF scatter it. Each part is weighted against its own density.
-Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+Vec3d PathIntegrator::scattered(const PathState& state, const Surface& surface, const SurfaceBsdf& bsdf,
                                 const LightPick& pick) const {
     if (is_zero(pick.radiance) || !(pick.density > 0.0)) {
         return {};
@@ -105,10 +105,10 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
     if (is_zero(value.sum())) {
         return {};
     }
-    const int max_veils = max_depth_ > 0 ? max_depth_ - walk.vertices - 2 : NEARLIGHT_MAX_VEILS;
+    const int max_veils = max_depth_ > 0 ? max_depth_ - state.vertices - 2 : NEARLIGHT_MAX_VEILS;
     const ShadowRay shadow =
         shadow_ray(scene_, embree_, beside(surface, pick.direction), pick, max_veils, lights_.scene_size());
-    const bool base_only = only_diffuse(walk);
+    const bool base_only = only_diffuse(state);
     Vec3d sum;
     if (pick.is_delta) {
         sum = (base_only ? value.diffuse : value.sum()) / pick.density;
@@ -116,69 +116,71 @@ Vec3d PathIntegrator::scattered(const Walk& walk, const Surface& surface, const 
         const double diffuse_chance = base_only ? 1 : bsdf.diffuse_chance();
         // A veil is no surface that reflects by D, so it ends a ray by which a clamped picture would leave
         // its receiver, and sampled lights alone bring what comes through.
-        const bool ray_ends = clamp_radius_ > 0.0f && walk.stage == Walk::Stage::chain && shadow.veils > 0;
+        const bool ray_ends =
+            clamp_radius_ > 0.0f && state.stage == PathState::Stage::chain && shadow.veils > 0;
         sum = value.diffuse / (pick.density + (ray_ends ? 0 : diffuse_chance * bsdf.diffuse_pdf(direction)));
         if (!base_only) {
             sum += value.specular / (pick.density + bsdf.specular_chance() * bsdf.specular_pdf(direction));
         }
     }
-    return walk.throughput * sum * as_double(pick.radiance) * shadow.transmittance;
+    return state.throughput * sum * as_double(pick.radiance) * shadow.transmittance;
 }
 
-void PathIntegrator::add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
-                                       const LightRandom& random, PathLight& light) const {
+void PathIntegrator::add_sampled_light(const PathState& state, const Surface& surface,
+                                       const SurfaceBsdf& bsdf, const LightRandom& random,
+                                       PathLight& light) const {
     const Vec3 position = surface.off(surface.geometric_normal, lights_.scene_size());
-    Vec3d& layer = walk.stage == Walk::Stage::chain ? light.direct : light.indirect;
+    Vec3d& layer = state.stage == PathState::Stage::chain ? light.direct : light.indirect;
     for (const Emitter& emitter : lights_.exact_lights()) {
-        layer += scattered(walk, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
+        layer += scattered(state, surface, bsdf, LightSampler::exact_light(scene_, emitter, position));
     }
-    layer += scattered(walk, surface, bsdf, lights_.sample(position, random));
+    layer += scattered(state, surface, bsdf, lights_.sample(position, random));
 }
 
 /// Notes at the start of the next ray how its direction was drawn.
-void PathIntegrator::leave(Walk& walk, const SurfaceDraw& draw) {
-    walk.scattered_at = walk.ray.origin;
-    walk.density = draw.is_delta ? 0 : draw.pdf;
-    walk.was_scattered = walk.was_scattered || !draw.is_delta;
-    walk.passed = 0;
-    walk.veils = 0;
-    if (walk.stage == Walk::Stage::chain) {
-        walk.stage = draw.is_diffuse ? Walk::Stage::receiver : Walk::Stage::chain;
+void PathIntegrator::leave(PathState& state, const SurfaceDraw& draw) {
+    state.scattered_at = state.ray.origin;
+    state.density = draw.is_delta ? 0 : draw.pdf;
+    state.was_scattered = state.was_scattered || !draw.is_delta;
+    state.passed = 0;
+    state.veils = 0;
+    if (state.stage == PathState::Stage::chain) {
+        state.stage = draw.is_diffuse ? PathState::Stage::receiver : PathState::Stage::chain;
     } else {
-        walk.stage = Walk::Stage::beyond;
+        state.stage = PathState::Stage::beyond;
     }
 }
 
 /// Goes on by one part of the BSDF at the end of a ray of the given length. Returns false where the path
 /// ends.
-bool PathIntegrator::scatter(Walk& walk, double distance, const Surface& surface, const SurfaceBsdf& bsdf,
-                             const VertexRandom& random) const {
-    const SurfaceDraw draw = only_diffuse(walk) ? bsdf.sample_diffuse(random.direction)
-                                                : bsdf.sample(random.part, random.direction);
-    walk.throughput *= draw.weight;
-    walk.index *= draw.eta;
-    const Vec3 direction = draw.is_straight ? walk.ray.direction : normalize(as_float(draw.wi));
-    walk.ray = {beside(surface, direction), direction};
-    ++walk.vertices;
+bool PathIntegrator::scatter(PathState& state, double distance, const Surface& surface,
+                             const SurfaceBsdf& bsdf, const VertexRandom& random) const {
+    const SurfaceDraw draw = only_diffuse(state) ? bsdf.sample_diffuse(random.direction)
+                                                 : bsdf.sample(random.part, random.direction);
+    state.throughput *= draw.weight;
+    state.index *= draw.eta;
+    const Vec3 direction = draw.is_straight ? state.ray.direction : normalize(as_float(draw.wi));
+    state.ray = {beside(surface, direction), direction};
+    ++state.vertices;
     if (draw.is_straight) {
-        walk.passed += distance;
-        ++walk.veils;
+        state.passed += distance;
+        ++state.veils;
     } else {
-        leave(walk, draw);
+        leave(state, draw);
     }
     double survival = 1;
-    if (walk.vertices >= kSureVertices) {
+    if (state.vertices >= kSureVertices) {
         // Radiance is larger inside glass by the square of the index, and no less important for it.
-        survival = std::min(kMaxSurvival, max_component(walk.throughput) * walk.index * walk.index);
-        walk.throughput *= survival > 0 ? 1 / survival : 0;
+        survival = std::min(kMaxSurvival, max_component(state.throughput) * state.index * state.index);
+        state.throughput *= survival > 0 ? 1 / survival : 0;
     }
-    return random.survival < survival && max_component(walk.throughput) > 0;
+    return random.survival < survival && max_component(state.throughput) > 0;
 }
 
-void PathIntegrator::note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+void PathIntegrator::note_receiver(const PathState& state, const Surface& surface, const SurfaceBsdf& bsdf,
                                    CameraPath& path) const {
     path.has_receiver = true;
-    path.throughput = as_float(walk.throughput);
+    path.throughput = as_float(state.throughput);
     path.receiver = {surface.off(surface.geometric_normal, lights_.scene_size()), as_float(bsdf.normal()),
                      as_float(bsdf.diffuse_reflectance() / bsdf.diffuse_chance())};
 }
@@ -202,40 +204,41 @@ BvhHit PathIntegrator::first_hit(const Ray& ray) const {
 
 PathLight PathIntegrator::trace(Ray ray, SampleBatch& batch, int sample) const {
     PathLight light;
-    Walk walk;
-    walk.ray = ray;
+    PathState state;
+    state.ray = ray;
     bool sees_sky = !scene_.camera.hide_emitters;
     for (;;) {
-        const BvhHit hit = walk.vertices == 0
-                               ? first_hit(walk.ray)
-                               : embree_.closest_hit(walk.ray.origin, walk.ray.direction, 0.0f, kInfinity);
+        const BvhHit hit = state.vertices == 0
+                               ? first_hit(state.ray)
+                               : embree_.closest_hit(state.ray.origin, state.ray.direction, 0.0f, kInfinity);
         // A pane that does not turn the path hides no less than air does, as in Mitsuba.
-        sees_sky = sees_sky || walk.ray.direction != ray.direction;
+        sees_sky = sees_sky || state.ray.direction != ray.direction;
         if (hit.triangle != ~0u || sees_sky) {
-            add_emission(walk, hit, light);
+            add_emission(state, hit, light);
         }
         if (hit.triangle == ~0u) {
             return light;
         }
-        if (walk.vertices == 0) {
+        if (state.vertices == 0) {
             light.camera.depth = hit.t;
         }
-        const VertexRandom random = vertex_random(batch, sample, walk.vertices);
-        const Surface surface = surface_at(scene_, hit, walk.ray.direction);
-        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(walk.ray.direction)), random.material,
-                               walk.was_scattered ? Transport::radiance : Transport::camera);
-        if (walk.stage == Walk::Stage::chain && bsdf.has_diffuse() && random.part < bsdf.diffuse_chance()) {
-            note_receiver(walk, surface, bsdf, light.camera);
+        const VertexRandom random = vertex_random(batch, sample, state.vertices);
+        const Surface surface = surface_at(scene_, hit, state.ray.direction);
+        const SurfaceBsdf bsdf(scene_, surface, -normalize(as_double(state.ray.direction)), random.material,
+                               state.was_scattered ? Transport::radiance : Transport::camera);
+        if (state.stage == PathState::Stage::chain && bsdf.has_diffuse() &&
+            random.part < bsdf.diffuse_chance()) {
+            note_receiver(state, surface, bsdf, light.camera);
         }
-        if (max_depth_ > 0 && walk.vertices + 1 >= max_depth_) {
+        if (max_depth_ > 0 && state.vertices + 1 >= max_depth_) {
             return light;
         }
-        if (only_diffuse(walk)) {
+        if (only_diffuse(state)) {
             const float ratio = hit.t / clamp_radius_;
-            walk.throughput *= std::min(1.0f, ratio * ratio);
+            state.throughput *= std::min(1.0f, ratio * ratio);
         }
-        add_sampled_light(walk, surface, bsdf, random.light, light);
-        if (!scatter(walk, static_cast<double>(hit.t), surface, bsdf, random)) {
+        add_sampled_light(state, surface, bsdf, random.light, light);
+        if (!scatter(state, static_cast<double>(hit.t), surface, bsdf, random)) {
             return light;
         }
     }

@@ -37,22 +37,22 @@ class PathIntegrator {
     [[nodiscard]] PathLight trace(Ray ray, SampleBatch& batch, int sample) const;
 
   private:
-    struct Walk;
+    struct PathState;
     struct VertexRandom;
     static VertexRandom vertex_random(SampleBatch& batch, int sample, int vertex);
 
     [[nodiscard]] BvhHit first_hit(const Ray& ray) const;
-    void add_emission(const Walk& walk, const BvhHit& hit, PathLight& light) const;
-    void add_sampled_light(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+    void add_emission(const PathState& state, const BvhHit& hit, PathLight& light) const;
+    void add_sampled_light(const PathState& state, const Surface& surface, const SurfaceBsdf& bsdf,
                            const LightRandom& random, PathLight& light) const;
-    [[nodiscard]] Vec3d scattered(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+    [[nodiscard]] Vec3d scattered(const PathState& state, const Surface& surface, const SurfaceBsdf& bsdf,
                                   const LightPick& pick) const;
-    static void leave(Walk& walk, const SurfaceDraw& draw);
-    [[nodiscard]] bool scatter(Walk& walk, double distance, const Surface& surface, const SurfaceBsdf& bsdf,
-                               const VertexRandom& random) const;
-    void note_receiver(const Walk& walk, const Surface& surface, const SurfaceBsdf& bsdf,
+    static void leave(PathState& state, const SurfaceDraw& draw);
+    [[nodiscard]] bool scatter(PathState& state, double distance, const Surface& surface,
+                               const SurfaceBsdf& bsdf, const VertexRandom& random) const;
+    void note_receiver(const PathState& state, const Surface& surface, const SurfaceBsdf& bsdf,
                        CameraPath& path) const;
-    [[nodiscard]] bool only_diffuse(const Walk& walk) const;
+    [[nodiscard]] bool only_diffuse(const PathState& state) const;
     [[nodiscard]] Vec3 beside(const Surface& surface, Vec3 direction) const;
 
     const Scene& scene_;

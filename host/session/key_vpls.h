@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VPLs that stay put while a camera walks: sets that were made for a few of its views.
+// VPLs that stay put while a camera moves: sets that were made for a few of its views.
 #pragma once
 
 #include <map>
@@ -21,9 +21,9 @@ struct JoinedVpls {
 /// and the shared limit is the least.
 JoinedVpls join_on_host(std::span<const VplPart> parts);
 
-/// A view of a walk for which VPLs are made.
+/// A view of an animation for which VPLs are made.
 struct KeyView {
-    int frame = 0;  ///< of the walk; tells key views apart
+    int frame = 0;  ///< of the animation; tells key views apart
     SceneCamera camera;
     float weight = 1.0f;  ///< of its VPLs in the next picture
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/session/frame_walk.h"
+#include "host/session/frame_sequence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,11 @@ int key_step(const AnimationOptions& options) {
     return options.vpl_keys.value_or(std::max(1, static_cast<int>(std::lround(std::min(options.fps, 1e6)))));
 }
 
-std::optional<SceneCamera> FrameWalk::camera_at(int frame) {
+std::optional<SceneCamera> FrameSequence::camera_at(int frame) {
     return source_.camera_at(*scene_, moment_of(options_, frame));
 }
 
-void FrameWalk::load(int frame) {
+void FrameSequence::load(int frame) {
     session_.reset();
     cameras_.clear();
     at_.reset();
@@ -31,7 +31,7 @@ void FrameWalk::load(int frame) {
     scene_ = std::make_unique<Scene>(source_.load(moment_of(options_, frame)));
 }
 
-void FrameWalk::move_to(int frame) {
+void FrameSequence::move_to(int frame) {
     if (at_ == frame) {
         return;
     }
@@ -51,7 +51,7 @@ void FrameWalk::move_to(int frame) {
     }
 }
 
-void FrameWalk::go_to(int frame, const ViewSettings& view, const SamplingSettings& sampling) {
+void FrameSequence::go_to(int frame, const ViewSettings& view, const SamplingSettings& sampling) {
     move_to(frame);
     if (!session_) {
         session_.emplace(devices_, *scene_, session_options_);
@@ -68,7 +68,7 @@ void FrameWalk::go_to(int frame, const ViewSettings& view, const SamplingSetting
 }
 
 /// The key views before and after the frame in which the light is the same, weighted by how near they are.
-std::vector<KeyView> FrameWalk::key_views(int frame, const SamplingSettings& sampling) {
+std::vector<KeyView> FrameSequence::key_views(int frame, const SamplingSettings& sampling) {
     const int step = key_step(options_);
     if (step == 0 || sampler_entry(sampling.sampler).makes_local_lights || !sampling.file.empty()) {
         return {};
@@ -98,7 +98,7 @@ std::vector<KeyView> FrameWalk::key_views(int frame, const SamplingSettings& sam
     return views;
 }
 
-VplMaker FrameWalk::vpl_maker() {
+VplMaker FrameSequence::vpl_maker() {
     if (!vpls_.has_views()) {
         return {};
     }

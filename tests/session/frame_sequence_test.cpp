@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/session/frame_walk.h"
+#include "host/session/frame_sequence.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace nearlight::core {
 namespace {
 
-TEST(FrameWalk, MomentsAndKeyViewsFollowTheRate) {
-    AnimationOptions options{.fps = 25, .animations = {"walk"}};
+TEST(FrameSequence, MomentsAndKeyViewsFollowTheRate) {
+    AnimationOptions options{.fps = 25, .animations = {"sequence"}};
     EXPECT_DOUBLE_EQ(moment_of(options, 50).seconds, 2.0);
     EXPECT_EQ(moment_of(options, 50).animations, options.animations);
     EXPECT_EQ(key_step(options), 25);
@@ -25,7 +25,7 @@ TEST(FrameWalk, MomentsAndKeyViewsFollowTheRate) {
 }
 
 /// The yard, in which the camera moves all the time, and something else begins to after a second.
-class FrameWalkTest : public test::DeviceTest {
+class FrameSequenceTest : public test::DeviceTest {
   protected:
     static SceneCamera camera_at(double seconds) {
         Scene scene;
@@ -54,9 +54,9 @@ class FrameWalkTest : public test::DeviceTest {
                                                                  : std::nullopt;
                 }};
     }
-    FrameWalk walk(Device& device) { return {source(), {.fps = 4}, {&device}, {}, scene_}; }
-    static void go_to(FrameWalk& walk, int frame) {
-        walk.go_to(frame, {.range = 2.0f, .clamp_radius = 0.2f}, test::few_vpls().sampling);
+    FrameSequence sequence(Device& device) { return {source(), {.fps = 4}, {&device}, {}, scene_}; }
+    static void go_to(FrameSequence& sequence, int frame) {
+        sequence.go_to(frame, {.range = 2.0f, .clamp_radius = 0.2f}, test::few_vpls().sampling);
     }
 
     std::unique_ptr<Scene> scene_;
@@ -64,59 +64,59 @@ class FrameWalkTest : public test::DeviceTest {
     bool is_broken_ = false;
 };
 
-TEST_F(FrameWalkTest, LoadsTheSceneOnlyWhereMoreThanTheCameraMoves) {
+TEST_F(FrameSequenceTest, LoadsTheSceneOnlyWhereMoreThanTheCameraMoves) {
     on_each_device([&](Device& device) {
         scene_.reset();
         loads_ = 0;
-        FrameWalk walk = this->walk(device);
+        FrameSequence sequence = this->sequence(device);
         for (const auto& [frame, loads] : {std::pair{0, 1}, {1, 1}, {3, 1}, {3, 1}, {6, 2}, {6, 2}, {0, 3}}) {
-            go_to(walk, frame);
+            go_to(sequence, frame);
             EXPECT_EQ(loads_, loads) << frame;
             EXPECT_EQ(scene_->camera.to_world.m, camera_at(frame / 4.0).to_world.m) << frame;
         }
     });
 }
 
-TEST_F(FrameWalkTest, KeyViewsAreWeightedByHowNearTheyAre) {
+TEST_F(FrameSequenceTest, KeyViewsAreWeightedByHowNearTheyAre) {
     on_each_device([&](Device& device) {
         scene_.reset();
-        FrameWalk walk = this->walk(device);
-        go_to(walk, 3);
-        ASSERT_EQ(walk.views().size(), 2u);
-        EXPECT_EQ(walk.views()[0].frame, 0);
-        EXPECT_FLOAT_EQ(walk.views()[0].weight, 0.25f);
-        EXPECT_EQ(walk.views()[1].frame, 4);
-        EXPECT_FLOAT_EQ(walk.views()[1].weight, 0.75f);
-        EXPECT_EQ(walk.views()[1].camera.to_world.m, camera_at(1).to_world.m);
-        EXPECT_TRUE(walk.vpl_maker());
-        go_to(walk, 0);
-        ASSERT_EQ(walk.views().size(), 1u);
-        EXPECT_EQ(walk.views()[0].weight, 1.0f);
-        go_to(walk, 6);  // the light is like that at neither key view
-        EXPECT_TRUE(walk.views().empty());
-        EXPECT_FALSE(walk.vpl_maker());
-        go_to(walk, 1);
-        EXPECT_EQ(walk.views().size(), 2u);
+        FrameSequence sequence = this->sequence(device);
+        go_to(sequence, 3);
+        ASSERT_EQ(sequence.views().size(), 2u);
+        EXPECT_EQ(sequence.views()[0].frame, 0);
+        EXPECT_FLOAT_EQ(sequence.views()[0].weight, 0.25f);
+        EXPECT_EQ(sequence.views()[1].frame, 4);
+        EXPECT_FLOAT_EQ(sequence.views()[1].weight, 0.75f);
+        EXPECT_EQ(sequence.views()[1].camera.to_world.m, camera_at(1).to_world.m);
+        EXPECT_TRUE(sequence.vpl_maker());
+        go_to(sequence, 0);
+        ASSERT_EQ(sequence.views().size(), 1u);
+        EXPECT_EQ(sequence.views()[0].weight, 1.0f);
+        go_to(sequence, 6);  // the light is like that at neither key view
+        EXPECT_TRUE(sequence.views().empty());
+        EXPECT_FALSE(sequence.vpl_maker());
+        go_to(sequence, 1);
+        EXPECT_EQ(sequence.views().size(), 2u);
     });
 }
 
-TEST_F(FrameWalkTest, GoesOnAfterAFileThatWasBroken) {
+TEST_F(FrameSequenceTest, GoesOnAfterAFileThatWasBroken) {
     on_each_device([&](Device& device) {
         scene_.reset();
-        FrameWalk walk = this->walk(device);
-        go_to(walk, 1);
+        FrameSequence sequence = this->sequence(device);
+        go_to(sequence, 1);
         const auto light = [&] {
-            return walk.session().sample(walk.session().look({}, 1), {}, 1).vpls.count();
+            return sequence.session().sample(sequence.session().look({}, 1), {}, 1).vpls.count();
         };
         const std::size_t before = light();
         is_broken_ = true;
-        EXPECT_TRUE(test::mentions(test::error_of([&] { go_to(walk, 6); }), "is broken"));
-        EXPECT_TRUE(test::mentions(test::error_of([&] { go_to(walk, 1); }), "is broken"))
+        EXPECT_TRUE(test::mentions(test::error_of([&] { go_to(sequence, 6); }), "is broken"));
+        EXPECT_TRUE(test::mentions(test::error_of([&] { go_to(sequence, 1); }), "is broken"))
             << "there is no scene";
         is_broken_ = false;
-        go_to(walk, 1);
+        go_to(sequence, 1);
         EXPECT_EQ(light(), before);
-        EXPECT_EQ(walk.views().size(), 2u);
+        EXPECT_EQ(sequence.views().size(), 2u);
     });
 }
 

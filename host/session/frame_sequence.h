@@ -20,7 +20,7 @@ SceneMoment moment_of(const AnimationOptions& options, int frame);
 /// Frames from one key view to the next; 0: each frame has VPLs of its own.
 int key_step(const AnimationOptions& options);
 
-/// Where a walk takes scenes from.
+/// Where a sequence of frames takes its scenes from.
 struct FrameSource {
     std::function<Scene(const SceneMoment&)> load;
     /// As camera_at() of scene_loader.h.
@@ -32,12 +32,12 @@ struct FrameSource {
 
 /// A scene and what is made for it, from one frame to the next. Where only the camera moves, trees and VPLs
 /// stay on the devices. What a frame looks like does not depend on which others were made before.
-class FrameWalk {
+class FrameSequence {
   public:
-    /// The devices must outlive the walk, and so must `scene`, in which the walk keeps its scene: after
-    /// go_to() it holds that frame's. If it holds a scene already, that is the one of frame `at`.
-    FrameWalk(FrameSource source, AnimationOptions options, std::vector<Device*> devices,
-              const SessionOptions& session_options, std::unique_ptr<Scene>& scene, int at = 0)
+    /// The devices must outlive the sequence, and so must `scene`, in which the sequence keeps its scene:
+    /// after go_to() it holds that frame's. If it holds a scene already, that is the one of frame `at`.
+    FrameSequence(FrameSource source, AnimationOptions options, std::vector<Device*> devices,
+                  const SessionOptions& session_options, std::unique_ptr<Scene>& scene, int at = 0)
         : source_(std::move(source)),
           options_(std::move(options)),
           devices_(std::move(devices)),
@@ -49,7 +49,7 @@ class FrameWalk {
     void go_to(int frame, const ViewSettings& view, const SamplingSettings& sampling);
     /// The session of the frame.
     [[nodiscard]] Session& session() { return *session_; }
-    /// What makes the frame's VPLs; empty if it has VPLs of its own. Refers to the walk.
+    /// What makes the frame's VPLs; empty if it has VPLs of its own. Refers to the sequence.
     [[nodiscard]] VplMaker vpl_maker();
     /// The key views that the frame's VPLs are for; empty if it has VPLs of its own.
     [[nodiscard]] const std::vector<KeyView>& views() const { return vpls_.views(); }
