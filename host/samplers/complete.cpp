@@ -200,32 +200,32 @@ Choice choose(SamplerStages& stages, const SamplingTask& task, std::span<const V
                                Pcg32(task.seed, kChoiceStream));
     }
     const std::size_t close_count = close_vpl_count(*task.close_fraction, task.vpl_count);
-    std::vector<float> close(weights.size());
-    std::vector<float> distant(weights.size());
+    std::vector<float> close_weights(weights.size());
+    std::vector<float> distant_weights(weights.size());
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        (is_close(lit[i]) ? close : distant)[i] = weights[i];
+        (is_close(lit[i]) ? close_weights : distant_weights)[i] = weights[i];
     }
     // Each side gets at least one VPL, because its light would be lost otherwise.
-    const Choice choice =
-        choose_balanced(stages, task, lit, rows, close, std::max<std::size_t>(close_count, 1),
+    const Choice close =
+        choose_balanced(stages, task, lit, rows, close_weights, std::max<std::size_t>(close_count, 1),
                         Pcg32(task.seed, kChoiceStream));
-    const Choice rest = choose_balanced(stages, task, lit, rows, distant,
-                                        std::max<std::size_t>(task.vpl_count - close_count, 1),
-                                        Pcg32(task.seed, kDistantChoiceStream));
+    const Choice distant = choose_balanced(stages, task, lit, rows, distant_weights,
+                                           std::max<std::size_t>(task.vpl_count - close_count, 1),
+                                           Pcg32(task.seed, kDistantChoiceStream));
     // Patches come first among the candidates, so they must come first among the chosen too.
     std::vector<std::pair<uint, float>> merged;
-    for (const Choice& part : {choice, rest}) {
+    for (const Choice& part : {close, distant}) {
         for (std::size_t i = 0; i < part.indices.size(); ++i) {
             merged.emplace_back(part.indices[i], part.factors[i]);
         }
     }
     std::ranges::sort(merged);
-    Choice both;
+    Choice all;
     for (const auto& [index, factor] : merged) {
-        both.indices.push_back(index);
-        both.factors.push_back(factor);
+        all.indices.push_back(index);
+        all.factors.push_back(factor);
     }
-    return both;
+    return all;
 }
 
 /// Returns the chosen VPLs. The patches among them come first and have no light yet.

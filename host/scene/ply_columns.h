@@ -17,7 +17,7 @@ enum class PlyCode {
     /// Linear, and those of integer types not divided by anything, as in Mitsuba 3, which expects 0 to 1.
     as_it_stands,
     srgb,    ///< all are sRGB; integers are parts of the largest number of their type
-    linear,  ///< all are linear; integers likewise
+    linear,  ///< all are linear; integers are parts of the largest number of their type
     /// As decode_display_colors() takes them: nothing is decoded, and only 8 and 16 bits without a sign are
     /// parts of the largest number, because some programs write bytes into the wider types.
     display,

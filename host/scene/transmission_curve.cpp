@@ -265,8 +265,8 @@ uint add_curve(Scene& scene, const TransmissionCurve& curve) {
     if (rows.size() / curve.size() > kMaxCurve) {
         throw Error(ErrorKind::out_of_memory,
                     "the scene has more than " + std::to_string(kMaxCurve) +
-                        " different coats (index and roughness), which is what receivers "
-                        "can tell apart; let materials share them");
+                        " different coats (index, roughness, clearcoat and sheen), which is what "
+                        "receivers can tell apart; let materials share them");
     }
     rows.insert(rows.end(), curve.begin(), curve.end());
     return static_cast<uint>(rows.size() / curve.size() - 1);

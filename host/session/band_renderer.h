@@ -99,8 +99,9 @@ class BandRenderer {
         GatherSums<Vpl> gathered;
         Buffer<float> sums;
         Buffer<float> layers;
-        Buffer<Splat> splats;         ///< none where samples count in their own pixel alone
-        Buffer<RowSplat> row_splats;  ///< likewise
+        // Both have no elements where samples count in their own pixel alone.
+        Buffer<Splat> splats;
+        Buffer<RowSplat> row_splats;
     };
 
     [[nodiscard]] uint reach() const { return picture_.camera.splat_reach; }

@@ -19,11 +19,11 @@ namespace {
 /// Candidates, as multiples of the radius that the pilot starts from. The first must be 1.
 constexpr std::array kRadiusMultiples{1.0f, 0.25f, 0.5f, 2.0f, 4.0f};
 constexpr std::array<uint, 4> kLightSampleNumbers{16, 32, 64, 128};
-/// What a pixel costs, rays and light samples apart, and what a light sample costs, in rays: medians of
-/// measurements on a CPU (bench/log/limit.md). Only their order of magnitude matters.
+/// What a pixel costs, rays and light samples apart, and what a light sample and an aimed ray cost, in rays:
+/// medians of measurements on a CPU (bench/log/limit.md). Only their order of magnitude matters.
 constexpr double kPixelCost = 40;
 constexpr double kLightSampleCost = 0.75;
-constexpr double kAimedRayCost = 0.8;  ///< likewise
+constexpr double kAimedRayCost = 0.8;
 /// Candidates of rays that a receiver aims.
 constexpr std::array<uint, 3> kAimedRayNumbers{1, 4, 16};
 static_assert(kAimedRayNumbers.back() <= kMaxAimedRays);
@@ -35,7 +35,7 @@ constexpr double kDarkPart = 0.01;  ///< of the mean light, squared: errors in t
 /// met a lamp's reflection would otherwise decide for the whole picture.
 constexpr double kMaxErrorOfVpls = 0.2;
 constexpr double kMaxErrorOfRay = 16 * kMaxErrorOfVpls;  ///< and of one light sample
-/// Likewise of rays that meet lamps over mirrors and glass, which is known better.
+/// The bound of the error of rays that meet lamps over mirrors and glass, which is known better.
 constexpr double kMaxErrorOfDot = 16;
 /// The squared error of one draw of a cut, relative to the light of all VPLs: it is about 1 where half of
 /// what is drawn is occluded (bench/log/cuts.md).
@@ -59,7 +59,7 @@ using Packets = std::vector<IrradiancePacket>;
 /// The light that reaches the pilot's receivers, and how its estimate varies, for one candidate.
 struct PilotLight {
     std::array<Packets, 2> direct;  ///< by a light sample and a ray, for each of kRaySeeds
-    std::array<Packets, 2> rays;    ///< indirect light that one ray brings, likewise
+    std::array<Packets, 2> rays;    ///< indirect light that one ray brings, for each of kRaySeeds
     Packets vpls;                   ///< sum of what VPLs bring
     Packets vpl_squares;            ///< sum of the squares of what each VPL brings
 };

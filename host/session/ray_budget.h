@@ -31,9 +31,9 @@ struct BudgetPilot {
 /// it. Candidates are 16 to 128 light samples, and, if the radius is open, its multiples by a power of two
 /// from 1/4 to 4. For each radius, the pilot gathers all VPLs at the view's receivers, which gives the VPLs'
 /// part of the error as the sum of their squares, and takes two light samples and two rays at each receiver,
-/// whose differences give the parts of both. Where the
-/// scene has caustic aims, receivers aim as many rays (1, 4 or 16) as lessen the error by most for what they
-/// cost, or none. What rays cost is counted in units of a typical device, so the result depends on no timing.
+/// whose differences give the parts of both. Where the scene has caustic aims, receivers aim as many rays (1,
+/// 4 or 16) as lessen the error by most for what they cost, or none. What rays cost is counted in units of a
+/// typical device, so the result depends on no timing.
 RayBudget choose_ray_budget(const BudgetPilot& pilot);
 
 }  // namespace nearlight::core

@@ -103,10 +103,10 @@ class Session {
                                    const VplBuffer& vpls) const;
 
     /// The irradiance (W/m²) at points (m), on the side of their unit normals: direct light, the light of
-    /// `vpls` with the view's clamp radius, and, by short paths, the light that this radius takes away. If
-    /// `vpls` come from an unbiased sampler, the expectation is all light up to the view's depth. Returns one
-    /// value per point. Throws Error(ErrorKind::invalid_argument) unless `points` and `normals` have the same
-    /// length.
+    /// `vpls` with their clamp radius (the view's, unless a pilot chose another for them and paths are
+    /// traced), and, by short paths, the light that this radius takes away. If `vpls` come from an unbiased
+    /// sampler, the expectation is all light up to the view's depth. Returns one value per point. Throws
+    /// Error(ErrorKind::invalid_argument) unless `points` and `normals` have the same length.
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const View& view, const VplSet& vpls, const IrradianceSettings& settings,
                                  uint seed);

@@ -32,8 +32,8 @@ struct View {
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const SceneCamera& camera, const ViewSettings& settings, uint seed);
 
-/// Whether rays start so far off surfaces that what the view shows lights its neighbours too little, because
-/// the scene is so much wider; with a warning.
+/// Warns, and returns true, if the scene is so much wider than what the view shows that shadow rays from its
+/// far end pass by what the view shows: they leave out a part of their length at their ends.
 bool warn_of_width(const DeviceScene& scene, const View& view);
 
 }  // namespace nearlight::core

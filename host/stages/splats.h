@@ -33,7 +33,8 @@ class Splats {
     void add(const Buffer<CameraVertex>& vertices, const ReceivedIrradiance& irradiance,
              const Buffer<Camera>& camera, const CameraBatch& batch, const SplatPixels& pixels,
              bool with_camera_light, Buffer<Splat>& splats);
-    /// Adds the light that the camera paths of a batch bring on their own, likewise.
+    /// Adds the light that the camera paths of a batch bring on their own to `splats`, which holds
+    /// splats_per_pixel() elements for each pixel.
     void add_camera_light(const Buffer<CameraVertex>& vertices, const Buffer<Camera>& camera,
                           const CameraBatch& batch, const SplatPixels& pixels, Buffer<CameraSplat>& splats);
     /// Averages the camera light of `count` listed pixels with that of as many further paths as they have,

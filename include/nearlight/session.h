@@ -162,9 +162,10 @@ class NEARLIGHT_API Session {
 
     /// The irradiance (W/m² of red, green and blue) at each of the points, on the side of its normal.
     /// `points` are in metres, `normals` have length 1, and there must be as many normals as points. The
-    /// result is the sum of direct light, the light of `vpls`, and the light that their view's clamp radius
-    /// takes away. If the sampler is unbiased, its expectation is all light up to that view's depth. Points
-    /// are moved along their normals by a tiny part of the scene's size, so they may lie on surfaces.
+    /// result is the sum of direct light, the light of `vpls`, and the light that their clamp radius (their
+    /// view's, or what a pilot chose in its place) takes away. If the sampler is unbiased, its expectation is
+    /// all light up to that view's depth. Points are moved along their normals by a tiny part of the scene's
+    /// size, so they may lie on surfaces.
     std::vector<Vec3> irradiance(std::span<const Vec3> points, std::span<const Vec3> normals,
                                  const VplSet& vpls, const IrradianceSettings& settings = {},
                                  std::uint32_t seed = 0);

@@ -221,7 +221,7 @@ struct IrradianceSettings {
     /// Samples per point towards area lights and the environment, 1 to 1 million.
     std::uint32_t direct_samples = 64;
     /// How many short paths to trace from each point, at most 65536. They bring back the light that the
-    /// view's clamp radius takes away; 0 leaves that light out.
+    /// clamp radius of the VPLs takes away; 0 leaves that light out.
     std::uint32_t paths = 16;
 };
 

@@ -47,13 +47,13 @@ typedef struct Parameter {
 #define NEARLIGHT_MATERIAL_NONLINEAR 2u  // plastic: colours saturate by inter-reflection below the coat
 #define NEARLIGHT_MATERIAL_TANGENT 4u    // the frame follows the texture coordinates (anisotropy, maps)
 #define NEARLIGHT_MATERIAL_THIN 8u       // principled: a thin sheet
+// principled: the base gets what its facets, clearcoat and sheen do not reflect, by the material's curve, and
+// has no retro-reflection of its own
+#define NEARLIGHT_MATERIAL_LAYERED 128u
 // Which sides of a material have a Lambertian part. The host sets these from all materials that one stands
 // for, when it uploads a scene.
 #define NEARLIGHT_MATERIAL_DIFFUSE_FRONT 16u
 #define NEARLIGHT_MATERIAL_DIFFUSE_BACK 32u
-// principled: the base gets what its facets, clearcoat and sheen do not reflect, by the material's curve, and
-// has no retro-reflection of its own
-#define NEARLIGHT_MATERIAL_LAYERED 128u
 #define NEARLIGHT_MATERIAL_VEIL 64u  // on the device: shadow rays may pass it straight (lib/light/shadow.cl)
 
 /// The roughness α below which microfacets count as a smooth surface.

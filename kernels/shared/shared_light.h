@@ -12,7 +12,7 @@ namespace nearlight::core {
 /// A light that the rays of a receiver found and that its bundle may share (shared_lights.cl). It has the
 /// members of a Vpl that a connection reads in the same places.
 typedef struct SharedLight {
-    Vec3 position;  // stands off its surface by the ray epsilon
+    Vec3 position;  // off its surface by triangle_stand_off()
     float weight;   // in proportion to which bundles draw; 0: no light
     Vec3 normal;    // of the mesh
     ushort curve;   // row of the surface's transmission curve

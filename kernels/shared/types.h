@@ -141,7 +141,7 @@ typedef struct Camera {
 /// flux `power` (W, albedo applied) into the hemisphere of `normal`, with the radiant intensity power/π ·
 /// cosθ · T(cosθs), where θ is the angle to `normal`, θs that to the shading normal, and T the surface's
 /// transmission curve. Where cosθs is not positive, the surface is seen from behind, and the VPL sends
-/// nothing. The position stands off its surface by the ray epsilon.
+/// nothing. The position stands off its surface as far as rays that leave it (triangle_stand_off()).
 typedef struct Vpl {
     Vec3 position;
     uint depth;  // 1: lit directly by an emitter; 2: after one more bounce, …; 0: lit by light of all depths
@@ -182,7 +182,7 @@ typedef struct SurfaceSample {
 
 /// Receivers are stored in packets of 64 (those of a tile of pixels, or 64 neighbours on a curve), component
 /// by component, so that a vector unit loads 16 of them at once. A zero normal marks an absent receiver. The
-/// position stands off its surface by the ray epsilon.
+/// position stands off its surface as far as rays that leave it (triangle_stand_off()).
 #define NEARLIGHT_PACKET_SIZE 64
 #define NEARLIGHT_BUNDLE_PACKETS 4  // max packets of a bundle (lib/bundle.cl)
 typedef struct ReceiverPacket {
@@ -242,9 +242,9 @@ typedef struct GatherParams {
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends
-/// stand off their surfaces already, by more than the margins, which only keep rounding at the ends from
-/// counting as hits. They must not be large: a segment to the sky is as long as the scene, and what lies
-/// within its margin casts no shadow.
+/// stand off their surfaces already; the margins keep rounding at the ends from counting as hits. They must
+/// not be large: a segment to the sky is as long as the scene, and what lies within its margins casts no
+/// shadow, of which warn_of_width() warns.
 #define NEARLIGHT_SEGMENT_T_MIN 1e-6f
 #define NEARLIGHT_SEGMENT_T_MAX (1.0f - 1e-6f)
 /// A ray that goes straight on beyond a surface skips the distance by which rays stand off it, divided by its
@@ -267,7 +267,7 @@ typedef struct CameraVertex {
     Vec3 traced_direct;
     float film_x;  // of the sample, from the middle of its pixel, pixels to the right
     Vec3 traced_indirect;
-    float film_y;  // likewise, pixels downwards
+    float film_y;  // of the sample, from the middle of its pixel, pixels downwards
 } CameraVertex;
 #define NEARLIGHT_VERTEX_CLOSE 1u      // the diffuse surface lies in the close range
 #define NEARLIGHT_VERTEX_OWN_PIXEL 2u  // the sample lies on the square of its own pixel
