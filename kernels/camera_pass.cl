@@ -8,8 +8,9 @@
 // 2) receivers. At the first surface with two ways on (D and S, or glass), branch 0 takes D or the refraction
 // and branch 1 S or the reflection, each with its full weight, which keeps noise out of glossy floors. At
 // later surfaces the way is chosen by chance. Branch 1 of a sample that never divides is absent. A receiver
-// of little weight is absent too: its light is traced at once and added up in CameraVertex. One work-item for
-// each sample, with all its branches; any work-group size. Random numbers depend on pixel and sample only.
+// of little weight is absent too, and so is one behind mirrors or glass to which a depth limit leaves few
+// edges: their light is traced at once and added up in CameraVertex. One work-item for each sample, with all
+// its branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/camera_path.cl"
 #include "lib/camera_sample.cl"
@@ -21,7 +22,8 @@
 #include "shared/shared_light.h"
 
 #define MAX_CHAIN 255  // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
-#define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver of little weight
+#define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver whose light is traced at once
+#define FEW_EDGES 2u                // that are left to such a receiver behind mirrors or glass
 
 /// The surface as what it reflects by S of its bundle's sky is computed (shared_sky.cl).
 static inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model,
@@ -115,8 +117,15 @@ static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sa
     return quota;
 }
 
-/// Finds the light of a receiver of little weight, whose D reflects `albedo`, by a ray of its own: as a
-/// receiver that asks VPLs it would cost as much as one that fills the pixel. At most `max_edges` edges are
+/// Whether a depth limit leaves few edges to a receiver behind `step` mirrors and panes. VPLs would bring it
+/// light mostly over paths that are too long, for rays to take away again. `min_weight` is above 0 where rays
+/// bring light at all.
+static inline bool has_few_edges(const CameraLimits* limits, uint step) {
+    return step > 0 && limits->min_weight > 0.0f && limits->max_edges - step - 1 <= FEW_EDGES;
+}
+
+/// Finds the light of a receiver, whose D reflects `albedo`, by a ray of its own: as a receiver that asks
+/// VPLs, one of little weight would cost as much as one that fills the pixel. At most `max_edges` edges are
 /// left.
 static inline void trace_light(const SceneView* scene, const CameraLimits* limits, const CameraPath* path,
                                const SurfaceHit* hit, const SurfaceBsdf* surface, float3 albedo,
@@ -180,14 +189,18 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
         float3 albedo;
         LightQuota quota = quota_at(limits, step, path->sample);
         const uint way = follow_surface(scene, path, &hit, &surface, branch, &quota, &numbers, &albedo);
-        const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
-        if (way == WAY_RECEIVER && is_weak) {
-            trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1,
-                        &receiver.vertex);
-        } else if (way == WAY_RECEIVER) {
-            set_receiver(close_range, path, &hit, &surface, albedo, step, &receiver);
-            if (quota.bundle_rays > 0) {
-                receiver.seen = seen_surface(&hit, straight, numbers.model, quota.samples);
+        if (way == WAY_RECEIVER) {
+            const bool is_weak = luminance(path->ray.throughput) < limits->min_weight;
+            if (!is_weak) {
+                set_receiver(close_range, path, &hit, &surface, albedo, step, &receiver);
+                if (quota.bundle_rays > 0) {
+                    receiver.seen = seen_surface(&hit, straight, numbers.model, quota.samples);
+                }
+            }
+            if (is_weak || has_few_edges(limits, step)) {
+                trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1,
+                            &receiver.vertex);
+                receiver.normal = (float3)(0.0f);
             }
         }
         if (way != WAY_ON || !goes_on(path, step, numbers.end)) {

@@ -34,7 +34,8 @@ struct CameraBatch {
     /// Rays of a receiver, if bundles share what these find of the sky with the first surfaces of the
     /// camera's paths too; 0: they do not.
     uint sky_rays = 0;
-    /// Receivers of less weight than this are absent, and rays of their own bring their light; 0: none are.
+    /// Receivers of less weight than this are absent, and so are those behind mirrors or glass to which
+    /// max_depth leaves at most two edges; rays of their own bring their light. 0: none are.
     float min_weight = 0.0f;
     /// Whether a pixel's only sample lies anywhere in the reach of its filter (GatherSettings), and not in the
     /// middle.

@@ -83,6 +83,28 @@ TEST_F(CameraLimitsTest, TracedReceiversHaveTheEdgesThatAreLeft) {
     });
 }
 
+/// Where rays bring light, a receiver in a mirror with at most two edges left asks no VPLs. It shows in the
+/// layers of surfaces all the same.
+TEST_F(CameraLimitsTest, ReceiversBehindMirrorsWithFewEdgesLeftAreTraced) {
+    on_each_ray_tree([](Device& device) {
+        Shooting shooting(device, wall_in_mirror(), 8, 8);
+        for (const float min_weight : {0.0f, 1e-3f}) {
+            for (uint max_depth = 2; max_depth < 8; ++max_depth) {
+                const bool is_traced = min_weight > 0 && max_depth <= 4;
+                const GBuffer found =
+                    shooting.shoot({.tile_row_count = 1, .max_depth = max_depth, .min_weight = min_weight});
+                double traced = 0;
+                for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
+                    EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced) << max_depth;
+                    EXPECT_GT(found.vertices[i].throughput.y * found.vertices[i].albedo.y, 0.0f) << max_depth;
+                    traced += found.vertices[i].traced_direct.y;
+                }
+                EXPECT_EQ(traced > 0, is_traced && max_depth > 2) << max_depth;
+            }
+        }
+    });
+}
+
 TEST_F(CameraLimitsTest, LightSamplesOfGlossHaveTheEdgesThatAreLeft) {
     on_each_ray_tree([](Device& device) {
         Shooting open(device, lamp_over_metal(false), 8, 8);

@@ -308,7 +308,7 @@ TEST_F(CameraPassTest, LightOfReceiversOfLittleWeightIsTraced) {
         for (const float min_weight : {0.0f, 0.09f, 0.11f}) {
             const bool is_traced = min_weight > 0.1f;
             const GBuffer found = Shooting(device, scene, 8, 8)
-                                      .shoot({.tile_row_count = 1, .max_depth = 3, .min_weight = min_weight});
+                                      .shoot({.tile_row_count = 1, .max_depth = 5, .min_weight = min_weight});
             for (std::size_t i = 0; i < found.vertices.size(); ++i) {
                 EXPECT_NEAR(found.vertices[i].traced_direct.y, is_traced ? 0.1f * radiance : 0.0f, 1e-5f);
                 EXPECT_TRUE(is_zero(found.vertices[i].camera_light));
