@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums a set of VPLs over receivers, for CPUs:
-// irradiance E(x) = Σ power/π · T(cosθx)·T(cosθy) · max0(cosθx)·max0(cosθy)/max(r², R²) · V, where T are the
-// transmission curves of both surfaces (lib/curve.cl), which are 1 for most.
+// irradiance E(x) = Σ power/π · T(cosθx)·T(cosθy) · F · max0(cosθx)·max0(cosθy)/max(r², R²) · V, where T are
+// the transmission curves of both surfaces (lib/curve.cl), and F is what the receiver's map leaves of the
+// light (lib/map_shadowing.cl); they are 1 for most.
 //
 // A work-item takes beams of GATHER_BEAM_WIDTH receivers, each with a run of VPLs. The compiler does not turn
 // a divergent traversal loop into vector code, so the vectors are written out: a beam is rows of 16 lanes
@@ -102,6 +103,9 @@ static inline void load_beam(Receivers* receivers, BeamBounds* bounds, const glo
     if (params->has_curves) {
         load_curves(receivers, packets, bundle, first);
     }
+    if (params->has_maps) {
+        load_maps(receivers, packets, bundle, first);
+    }
 }
 
 /// Gathers the beams of the bundles [first_bundle, end_bundle) from the VPLs [first_vpl, end_vpl). Work-items
@@ -162,6 +166,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void gather_packets(
                 RECORD_OPEN(i, &params, &bundle, first, receivers.order, &segments, false);
                 if (params.has_curves) {
                     weigh_by_curves(&segments, vpls + i, &receivers, curves);
+                }
+                if (params.has_maps) {
+                    weigh_by_maps(&segments, &receivers);
                 }
                 add_visible(&sum, &segments, scale, gather_squared(vpls + i));
                 if (params.group_size != 0) {

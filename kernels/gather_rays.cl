@@ -7,6 +7,7 @@
 #include "lib/bvh_traverse.cl"
 #include "lib/curve.cl"
 #include "lib/gather.cl"
+#include "lib/map_shadowing.cl"
 #include "lib/vpl.cl"
 
 /// The geometry term of a VPL and a receiver without visibility, or 0 if there is nothing to trace. `segment`
@@ -27,6 +28,18 @@ static inline float segment_transmission(const global float* curves, const globa
     const float3 direction = normalize(segment);
     return curve_value(curves, vpl_curve(vpl), dot(seen_normal(vpl), direction)) *
            curve_value(curves, curve, -dot(normal, direction));
+}
+
+/// By what the surfaces of both ends weigh the light of a segment, besides their cosines. `mesh_normal` is
+/// zero where no map tilts the receiver's normal.
+static inline float segment_weight(const GatherParams* params, const global float* curves,
+                                   const global Vpl* vpl, float3 normal, float3 mesh_normal, uint curve,
+                                   float3 segment) {
+    float weight = params->has_curves ? segment_transmission(curves, vpl, normal, curve, segment) : 1.0f;
+    if (params->has_maps && dot(mesh_normal, mesh_normal) > 0.0f) {
+        weight *= map_factor_of(normal, mesh_normal, -normalize(segment));
+    }
+    return weight;
 }
 
 /// The geometry term of a VPL and a receiver, or 0 if the pair is left out whatever stands between: because
@@ -60,6 +73,7 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
     const global ReceiverPacket* from = receivers + packet;
     const float3 position = receiver_position(from, lane);
     const float3 normal = receiver_normal(from, lane);
+    const float3 mesh_normal = receiver_mesh_normal(from, lane);
     const uint curve = receiver_curve(from, lane);
     global IrradiancePacket* to = sums + packet;
     float3 total = params.first_vpl == 0 ? (float3)0.0f : (float3)(to->r[lane], to->g[lane], to->b[lane]);
@@ -79,10 +93,9 @@ kernel void gather_rays(const global BvhNode* nodes, const global BvhTriangle* t
             const float term = open_term(vpl, segment, normal, scale, params.clamp_radius_squared, threshold);
             const bool visible = term > 0.0f && !occluded(nodes, triangles, origin, segment,
                                                           NEARLIGHT_SEGMENT_T_MIN, NEARLIGHT_SEGMENT_T_MAX);
-            const float weight = !visible ? 0.0f
-                                 : params.has_curves
-                                     ? term * segment_transmission(curves, vpl, normal, curve, segment)
-                                     : term;
+            const float weight =
+                visible ? term * segment_weight(&params, curves, vpl, normal, mesh_normal, curve, segment)
+                        : 0.0f;
             sum += scale * (gather_squared(vpl) ? weight * weight : weight);
             squares += scale * scale * (weight * weight);
 #ifdef GATHER_RECORD

@@ -188,6 +188,9 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
     const OrientedPoint receiver =
         point_of_receiver(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
     const uint curve = receiver_curve(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
+    const float3 mesh_normal =
+        receiver_mesh_normal(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
+    const bool is_mapped_here = dot(mesh_normal, mesh_normal) > 0.0f;
     float3 sum = (float3)(0.0f);
     for (uint slot = first_slot; slot < first_slot + slots_per_packet; ++slot) {
         if (flags[slot] == 0 || (seen_by[slot] >> lane & 1) == 0) {
@@ -205,8 +208,10 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         const float transmission =
             diffuse_transmission(&scene, vpl_curve(lights + slot), cos_seen) *
             diffuse_transmission(&scene, curve, -dot(receiver.normal, between) * inverse);
+        const float map =
+            is_mapped_here ? map_factor_of(receiver.normal, mesh_normal, -between * inverse) : 1.0f;
         sum += load3(lights[slot].power) *
-               (M_1_PI_F * part * transmission * local_geometry(&scene, &receiver, &light, radius));
+               (M_1_PI_F * part * transmission * map * local_geometry(&scene, &receiver, &light, radius));
     }
     add_irradiance_to(irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE, lane, sum);
 }

@@ -94,7 +94,8 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                 .receivers = receivers,
                                 .packet_count = packet_count,
                                 .clamp_radius = sources.clamp_radius,
-                                .curves = scene.curves_in_use()},
+                                .curves = scene.curves_in_use(),
+                                .has_maps = scene.host_info.has_maps != 0},
                                gathered);
         stages.vpl_light.add(gathered.light, packet_count, irradiance);
     }

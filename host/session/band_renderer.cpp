@@ -173,7 +173,8 @@ bool BandRenderer::gather_vpls(const CameraBatch& batch, const GatherProgress& p
                                     .clamp_radius = picture_.budget.clamp_radius,
                                     .strata = cut_tree_ ? nullptr : &strata,
                                     .selection = selection ? &*selection : nullptr,
-                                    .curves = scene_.curves_in_use()},
+                                    .curves = scene_.curves_in_use(),
+                                    .has_maps = scene_.host_info.has_maps != 0},
                                    buffers_.gathered, progress);
 }
 

@@ -31,7 +31,8 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
                                                .packet_count = packet_count,
                                                .clamp_radius = group.radius,
                                                .strata = &strata,
-                                               .curves = scene.curves_in_use()},
+                                               .curves = scene.curves_in_use(),
+                                               .has_maps = scene.host_info.has_maps != 0},
                                               part, of_group);
         if (!finished) {
             return false;

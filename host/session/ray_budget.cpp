@@ -91,7 +91,8 @@ PilotLight light_of(const BudgetPilot& pilot, float radius) {
                                        .packet_count = packets,
                                        .clamp_radius = radius,
                                        .group_size = static_cast<uint>(pilot.vpls.count()),
-                                       .curves = pilot.scene.curves_in_use()},
+                                       .curves = pilot.scene.curves_in_use(),
+                                       .has_maps = pilot.scene.host_info.has_maps != 0},
                                       sums);
     light.vpls = sums.groups.download();
     light.vpl_squares = sums.squares.download();

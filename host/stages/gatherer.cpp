@@ -136,10 +136,10 @@ void Gatherer::launch(Kernel& kernel, const GatherInput<Source>& input, const Pa
                               .first_listed_bundle = lists != nullptr ? lists->first_bundle : 0,
                               .list_stride = lists != nullptr ? lists->stride : 0,
                               .has_curves = input.curves != nullptr ? 1u : 0u,
+                              .has_maps = input.has_maps ? 1u : 0u,
                               .strata = strata_of(input).count,
                               .stratum_period = strata_of(input).period,
-                              .pad0 = 0,
-                              .pad1 = 0};
+                              .pad0 = 0};
     params_.upload(std::span(&params, 1));
     if (lists != nullptr) {
         launch_with(kernel, input, part, sums, lists->vpls, lists->weights, lists->lengths, more...);

@@ -65,6 +65,7 @@ struct GatherInput {
     const Buffer<float>* thresholds = nullptr;
     /// The transmission curves of the surfaces, which weigh light at both ends; null means that they are 1.
     const Buffer<float>* curves = nullptr;
+    bool has_maps = false;  ///< whether normal and bump maps of receivers shadow the light that they get
 
     [[nodiscard]] std::size_t group_count() const {
         return group_size == 0 ? 0 : divide_rounding_up(vpl_count, group_size);

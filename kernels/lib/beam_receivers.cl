@@ -5,6 +5,7 @@
 
 #include "lib/bundle.cl"
 #include "lib/lanes.cl"
+#include "lib/map_shadowing.cl"
 #include "lib/vpl.cl"
 
 // GATHER_BEAM_WIDTH receivers go through the tree together: 16, 32, 64, 128 or 256, in rows of 16 lanes. They
@@ -23,7 +24,10 @@ typedef struct Receivers {
     float16 threshold[GATHER_ROWS];   // for squared light, which is left out below it; see load_thresholds()
     ushort curve[GATHER_BEAM_WIDTH];  // rows of transmission curves; see load_curves()
     uint curved_rows;                 // one bit for each row of 16 lanes that has a curve
-    uchar order[GATHER_BEAM_WIDTH];   // receiver of each lane, counted from the first of the beam
+    // Normals of the mesh and the squared α of what shadows a map makes; see load_maps().
+    float16 mesh_x[GATHER_ROWS], mesh_y[GATHER_ROWS], mesh_z[GATHER_ROWS], map_tilt[GATHER_ROWS];
+    uint mapped_rows;                // one bit for each row of 16 lanes that has a map
+    uchar order[GATHER_BEAM_WIDTH];  // receiver of each lane, counted from the first of the beam
 } Receivers;
 
 /// The box around all receivers that are present, and the box around each cluster in a lane of its own (x, y,
@@ -193,6 +197,31 @@ static inline void load_curves(Receivers* receivers, const global ReceiverPacket
             packets + bundle->first + (there ? lane / NEARLIGHT_PACKET_SIZE : 0);
         receivers->curve[i] = there ? (ushort)receiver_curve(packet, lane % NEARLIGHT_PACKET_SIZE) : 0;
         receivers->curved_rows |= (receivers->curve[i] != 0 ? 1u : 0u) << i / 16;
+    }
+}
+
+/// Loads the maps of receivers that gather_receivers() has put in order. Where there is none, the mesh's
+/// normal is the receiver's own, and the map makes no shadows.
+static inline void load_maps(Receivers* receivers, const global ReceiverPacket* packets, const Bundle* bundle,
+                             uint first) {
+    receivers->mapped_rows = 0;
+    for (uint i = 0; i < GATHER_BEAM_WIDTH; ++i) {
+        const uint lane = first + receivers->order[i];
+        const bool there = lane / NEARLIGHT_PACKET_SIZE < bundle->count;
+        const float3 own = (float3)(((const float*)receivers->nx)[i], ((const float*)receivers->ny)[i],
+                                    ((const float*)receivers->nz)[i]);
+        float3 mesh = (float3)(0.0f);
+        if (there) {
+            mesh = receiver_mesh_normal(packets + bundle->first + lane / NEARLIGHT_PACKET_SIZE,
+                                        lane % NEARLIGHT_PACKET_SIZE);
+        }
+        const bool is_mapped = dot(mesh, mesh) > 0.0f;
+        mesh = is_mapped ? mesh : own;
+        ((float*)receivers->mesh_x)[i] = mesh.x;
+        ((float*)receivers->mesh_y)[i] = mesh.y;
+        ((float*)receivers->mesh_z)[i] = mesh.z;
+        ((float*)receivers->map_tilt)[i] = is_mapped ? map_tilt(dot(own, mesh)) : 0.0f;
+        receivers->mapped_rows |= (is_mapped ? 1u : 0u) << i / 16;
     }
 }
 

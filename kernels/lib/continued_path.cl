@@ -28,7 +28,8 @@ static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float fi
 
 /// What a ray brings over at least one surface, besides what VPLs bring. VPLs stand for the Lambertian part
 /// of the first surface, for all paths of up to `vpl_edges` edges from the receiver to a light. On these
-/// paths they bring `of_vpls` times what the ray would. Wanted are all parts, for up to `max_edges` edges.
+/// paths they bring the part `of_vpls` of what the ray would. Wanted are all parts, for up to `max_edges`
+/// edges.
 typedef struct WantedLight {
     float of_vpls;
     uint max_edges;
@@ -55,22 +56,18 @@ typedef struct Continuation {
     float3 excess;      // of lamps met by chance, over the limit: it stays with the receiver
 } Continuation;
 
-/// Decides what a ray brings. Mostly VPLs bring less than all light of the Lambertian part, and the ray
-/// brings the rest: all of it where a map turns the normal of the first surface for this viewer. They bring
-/// too much where a map shadows the receiver, and on paths that are too long for a receiver behind mirrors or
-/// glass. There the ray takes light away, by chance `u`, or else brings what is left of the others.
+/// Decides what a ray brings. VPLs bring a part of the light of the first surface's Lambertian part, and the
+/// ray brings the rest: all of it where a map turns that surface's normal for this viewer. They bring too
+/// much on paths that are too long for a receiver behind mirrors or glass. There the ray takes light away, by
+/// chance `u`, or else brings what is left of the others.
 static inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
                                                const WantedLight* wanted, float u) {
     const bool has_specular = scene->info->has_specular;
     const float of_vpls = first->mapped == MAPPED_TURNED ? 0.0f : wanted->of_vpls;
-    const float kept = fmax(1.0f - of_vpls, 0.0f);
-    const float taken = fmax(of_vpls - 1.0f, 0.0f);
+    const float kept = 1.0f - of_vpls;
     const bool is_short = wanted->vpl_edges > wanted->max_edges && of_vpls > 0.0f;
     const bool is_kept = kept > 0.0f || has_specular;
-    float chance = is_kept ? fmin(0.5f, taken) : fmin(1.0f, 4.0f * taken);
-    if (is_short) {
-        chance = is_kept ? 0.5f : 1.0f;
-    }
+    const float chance = !is_short ? 0.0f : (is_kept ? 0.5f : 1.0f);
     Continuation way;
     way.is_found = 0;
     way.excess = (float3)(0.0f);
@@ -78,7 +75,7 @@ static inline Continuation choose_continuation(const SceneView* scene, const Sur
         way.parts = BSDF_D;
         way.diffuse_weight = 1.0f;
         way.max_edges = wanted->vpl_edges;
-        way.short_scale = -taken / chance;
+        way.short_scale = 0.0f;
         way.long_scale = -of_vpls / chance;
     } else {
         way.parts = (kept > 0.0f ? BSDF_D : 0u) | (has_specular ? BSDF_S : 0u);

@@ -199,7 +199,7 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
     // Where only near surfaces can bring light, or take away what VPLs bring too much, the ray need not go
     // farther.
     const bool far = scene->info->has_specular || scene->info->has_maps || has_sampled_lights(scene) ||
-                     is_mapped(at) || limits->vpl_edges > limits->max_edges;
+                     limits->vpl_edges > limits->max_edges;
     const SurfaceHit hit =
         trace_surface(scene, ray.origin, ray.direction, far ? INFINITY : limits->clamp_radius);
     if (limits->max_edges > 0) {
@@ -216,7 +216,7 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
         light.indirect = find_behind_veils(scene, at, limits, &ray, keys, finds);
     }
     const float of_vpls = 1.0f - remaining_weight(hit.t, limits->clamp_radius);
-    const WantedLight wanted = {.of_vpls = of_vpls / receiver_map_factor(at, ray.direction),
+    const WantedLight wanted = {.of_vpls = of_vpls,
                                 .max_edges = limits->max_edges,
                                 .vpl_edges = limits->vpl_edges,
                                 .is_shared = finds->near.is_wanted && hit.t < limits->clamp_radius,
@@ -230,9 +230,9 @@ static inline ReceivedLight ray_light(const SceneView* scene, const ReceiverPoin
             continued_light(scene, ray, hit, &wanted, keys, &way, &finds->reflections);
         light.direct += beyond.direct;
         if (way.is_found) {
-            const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, wanted.of_vpls);
+            const SharedLight y = sent_light(scene, &ray, &hit, &way, beyond.indirect, of_vpls);
             offer_light(&finds->near, &y, to_unit_float(random_uint4(keys ^ 0xf09du).x));
-            light.indirect += fmax(1.0f - wanted.of_vpls, 0.0f) * way.excess;
+            light.indirect += (1.0f - of_vpls) * way.excess;
         } else {
             light.indirect += beyond.indirect;
         }

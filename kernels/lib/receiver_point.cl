@@ -30,11 +30,7 @@ static inline bool is_mapped(const ReceiverPoint* at) {
 /// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
 /// lets through.
 static inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
-    if (!is_mapped(at)) {
-        return 1.0f;
-    }
-    const float cosine = dot(direction, at->mesh_n);
-    return cosine > 0.0f ? map_shadowing(map_tilt(dot(at->n, at->mesh_n)), cosine) : 0.0f;
+    return is_mapped(at) ? map_factor_of(at->n, at->mesh_n, direction) : 1.0f;
 }
 
 /// Irradiance (W/m²) from two kinds of paths.

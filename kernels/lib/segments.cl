@@ -127,6 +127,25 @@ static inline void weigh_by_curves(Segments* s, const global Vpl* vpl, const Rec
     }
 }
 
+/// Multiplies the geometry terms of open segments by what the receivers' maps leave of the light
+/// (lib/map_shadowing.cl).
+static inline void weigh_by_maps(Segments* s, const Receivers* receivers) {
+    for (uint open = s->open; open != 0; open &= ~clusters_of_row(first_row(open))) {
+        const uint row = first_row(open);
+        if ((receivers->mapped_rows >> row & 1) == 0) {
+            continue;
+        }
+        const float16 dx = s->dx[row], dy = s->dy[row], dz = s->dz[row];
+        const float16 r2 = dx * dx + dy * dy + dz * dz;
+        const float16 cosine =
+            -(receivers->mesh_x[row] * dx + receivers->mesh_y[row] * dy + receivers->mesh_z[row] * dz);
+        const float16 cos2 = fmax(cosine * cosine / r2, (float16)1e-12f);
+        const float16 tan2 = fmax(1.0f - cos2, (float16)0.0f) / cos2;
+        const float16 part = 2.0f / (1.0f + sqrt(1.0f + receivers->map_tilt[row] * tan2));
+        s->weight[row] *= cosine > 0.0f ? part : (float16)0.0f;
+    }
+}
+
 /// One bit for each open lane of a row whose segment meets the box. A segment that meets a box also meets
 /// every box that contains it, even in rounded arithmetic, because rounding keeps the order of numbers.
 LANES_INLINE uint lanes_in_box(const Segments* s, uint row, const Planes* p) {

@@ -83,6 +83,7 @@
     SIZE(GatherParams)                              \
     OFFSET(GatherParams, group_size)                \
     OFFSET(GatherParams, has_curves)                \
+    OFFSET(GatherParams, has_maps)                  \
     OFFSET(GatherParams, stratum_period)            \
     SIZE(CutNode)                                   \
     OFFSET(CutNode, children)                       \

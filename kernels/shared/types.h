@@ -236,9 +236,10 @@ typedef struct GatherParams {
     uint first_listed_bundle;       // first bundle with a list, where bundles have lists of VPLs
     uint list_stride;               // entries from one bundle's list to the next
     uint has_curves;                // 1: some surface has a transmission curve
+    uint has_maps;                  // 1: some surface has a normal or bump map
     uint strata;                    // strata of the set; 1: every bundle asks about the whole set
     uint stratum_period;            // bundles after which their strata repeat
-    uint pad0, pad1;
+    uint pad0;
 } GatherParams;
 
 /// Visibility is tested strictly between these fractions of the segment from a VPL to a receiver. Both ends

@@ -117,7 +117,8 @@ struct CornerLight {
                                  .vpl_count = vpls.size(),
                                  .receivers = receivers,
                                  .packet_count = 1,
-                                 .clamp_radius = radius},
+                                 .clamp_radius = radius,
+                                 .has_maps = true},
                                 sums);
         return mean_green(sums.light);
     }
@@ -178,8 +179,8 @@ TEST_F(ReceiverPathsTest, TakesAwayPathsThatAreTooLongBehindPanes) {
     });
 }
 
-/// [Estevez et al. 2019], as Mitsuba's normal maps have it; gathers know the tilted normal alone.
-TEST_F(ReceiverPathsTest, TakesAwayWhatANormalMapShadows) {
+/// [Estevez et al. 2019], as Mitsuba's normal maps have it.
+TEST_F(ReceiverPathsTest, SuppliesWhatABoundedGatherLeavesOutUnderANormalMap) {
     on_each_device([](Device& device) {
         const Vec3 n{0.6f, 0.8f, 0};
         CornerLight setup(device, corner(), receivers_tilted_to(n));

@@ -160,14 +160,6 @@ static inline SurfaceBsdf surface_bsdf(const SceneView* scene, const SurfaceHit*
     return surface_bsdf_of(scene, hit, direction, mode, u, false);
 }
 
-/// Shadowing by the bumps that a map stands for, as light sees them that has this cosine to the mesh's
-/// normal. [Estevez et al., A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, Ray
-/// Tracing Gems 2019]
-static inline float map_shadowing(float tilt2, float cosine) {
-    const float cos2 = fmax(cosine * cosine, 1e-12f);
-    return 2.0f / (1.0f + sqrt(1.0f + tilt2 * fmax(1.0f - cos2, 0.0f) / cos2));
-}
-
 /// The flag of a VPL on this surface that says whether a map tilts its shading normal.
 static inline uint mapped_flag(const SurfaceBsdf* s) {
     return s->mapped ? NEARLIGHT_VPL_MAPPED : 0;

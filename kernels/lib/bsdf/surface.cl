@@ -8,6 +8,7 @@
 #define NEARLIGHT_LIB_BSDF_SURFACE
 
 #include "lib/bsdf/bsdf_types.cl"
+#include "lib/map_shadowing.cl"
 #include "lib/texture.cl"
 
 // What a path carries. Both kinds of path find the same light (Veach 1997, §5.2 and §5.3).
@@ -80,13 +81,6 @@ static inline float3 bumped_normal(const SurfaceHit* hit, const Frame* front, fl
     }
     const float3 geometric = hit->front ? hit->geometric : -hit->geometric;
     return world_to_frame(front, n * (rsqrt(squared) * (dot(n, geometric) < 0.0f ? -1.0f : 1.0f)));
-}
-
-/// The squared α of the shadowing by the bumps that a map stands for, whose normal has this cosine to the
-/// mesh's.
-static inline float map_tilt(float cosine) {
-    const float cos2 = cosine * cosine;
-    return clamp(0.125f * (1.0f - cos2) / fmax(cos2, 1e-12f), 0.0f, 1.0f);
 }
 
 /// Decides with this probability. `u`, which is uniform in [0, 1), is so again afterwards, whatever was
