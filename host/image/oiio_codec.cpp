@@ -100,6 +100,15 @@ void check_gif_screen(const fs::path& file, const Head& head, OIIO::Filesystem::
     check_fits_in_file(file, kPixelBytes * number(6) * number(8), size_of(file, memory));
 }
 
+/// Refuses a TIFF file of CMYK in tiles, whatever its compression. OpenImageIO 2.4 takes room for three
+/// channels, and writes four.
+void check_tiff_tiles(const fs::path& file, const OIIO::ImageSpec& spec) {
+    constexpr int kSeparated = 5;  // inks, as TIFF 6.0 numbers the values of PhotometricInterpretation
+    if (spec.tile_width > 0 && spec.get_int_attribute("tiff:PhotometricInterpretation") == kSeparated) {
+        fail_image("cannot read image", file, "tiles of CMYK in TIFF are not supported; save it as RGB");
+    }
+}
+
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
     const Head head = read_head(file, memory);
     const std::string format = format_of(file, head);
@@ -211,6 +220,7 @@ Image decode(const fs::path& file, std::span<const std::byte> bytes) {
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }
+    check_tiff_tiles(file, spec);
     const bool is_dwa = spec.get_string_attribute("compression").substr(0, 3) == "dwa";
     check_fits_in_file(file, std::max(spec.image_bytes(true), spec.tile_bytes(true)), size_of(file, proxy),
                        is_dwa ? kDwaDensity : kUsualDensity);

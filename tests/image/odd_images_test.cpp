@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image files that are sound but rare, or that OpenImageIO does not survive.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+
+#include "host/image/image_io.h"
+#include "tests/image/image_checks.h"
+#include "tests/image/temporary_folder.h"
+
+namespace nearlight::core {
+namespace {
+
+using namespace image_checks;
+namespace fs = std::filesystem;
+
+void put(std::string& text, std::uint32_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) {
+        text.push_back(static_cast<char>(number >> 8 * i & 0xffu));
+    }
+}
+
+/// A TIFF file of 16 × 16 pixels of CMYK, as one strip or one tile without compression.
+std::string cmyk_tiff(bool is_tiled) {
+    constexpr std::uint32_t kSide = 16;
+    constexpr std::uint32_t kShort = 3;
+    constexpr std::uint32_t kLong = 4;
+    struct Field {
+        std::uint32_t tag, type, count, value;
+    };
+    std::vector<Field> fields{{256, kShort, 1, kSide}, {257, kShort, 1, kSide}, {258, kShort, 4, 0},
+                              {259, kShort, 1, 1},     {262, kShort, 1, 5},     {277, kShort, 1, 4}};
+    const std::uint32_t directory_size = 2 + 12 * (is_tiled ? 10 : 9) + 4;
+    const std::uint32_t bits_at = 8 + directory_size;
+    const std::uint32_t pixels_at = bits_at + 8;
+    fields[2].value = bits_at;
+    if (is_tiled) {
+        fields.insert(fields.end(), {{322, kShort, 1, kSide},
+                                     {323, kShort, 1, kSide},
+                                     {324, kLong, 1, pixels_at},
+                                     {325, kLong, 1, 4 * kSide * kSide}});
+    } else {
+        fields.insert(fields.begin() + 5, {273, kLong, 1, pixels_at});
+        fields.insert(fields.end(), {{278, kShort, 1, kSide}, {279, kLong, 1, 4 * kSide * kSide}});
+    }
+    std::string text("II*\0\x08\0\0\0", 8);
+    put(text, static_cast<std::uint32_t>(fields.size()), 2);
+    for (const Field& field : fields) {
+        put(text, field.tag, 2);
+        put(text, field.type, 2);
+        put(text, field.count, 4);
+        put(text, field.value, 4);
+    }
+    put(text, 0, 4);
+    for (int channel = 0; channel < 4; ++channel) {
+        put(text, 8, 2);
+    }
+    for (std::uint32_t pixel = 0; pixel < kSide * kSide; ++pixel) {
+        text += std::string("\xff\0\0\0", 4);  // cyan
+    }
+    return text;
+}
+
+TEST(OddImages, CmykTiffsInTilesAreRefused) {
+    const TemporaryFolder folder;
+    write_text(folder / "strip.tif", cmyk_tiff(false));
+    const Image cyan = read_image(folder / "strip.tif");
+    EXPECT_EQ(cyan.width, 16);
+    EXPECT_EQ(cyan.at(15, 15, 0), 0.0f);
+    EXPECT_EQ(cyan.at(15, 15, 1), 1.0f);
+    EXPECT_EQ(cyan.at(15, 15, 2), 1.0f);
+    write_text(folder / "tile.tif", cmyk_tiff(true));
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "tile.tif"); }).find("tiles of CMYK"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace nearlight::core
