@@ -15,6 +15,7 @@
 
 #include "host/base/names.h"
 #include "host/base/words.h"
+#include "host/image/head_check.h"
 #include "host/image/image_codec.h"
 #include "host/image/webp_codec.h"
 #include "nearlight/error.h"
@@ -58,11 +59,8 @@ std::uintmax_t size_of(const fs::path& file, OIIO::Filesystem::IOProxy* memory) 
     return memory != nullptr ? memory->size() : fs::file_size(file, ignored);
 }
 
-/// The beginning of a file, with zeros behind the end of a shorter one.
-using Head = std::array<char, 10>;
-
-Head read_head(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
-    Head head{};
+ImageHead read_head(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
+    ImageHead head{};
     static_cast<void>(memory != nullptr
                           ? memory->pread(head.data(), head.size(), 0)
                           : OIIO::Filesystem::read_bytes(file.string(), head.data(), head.size()));
@@ -72,7 +70,7 @@ Head read_head(const fs::path& file, OIIO::Filesystem::IOProxy* memory) {
 /// OpenImageIO's name of a file's format. OpenImageIO itself would try all its readers, some of which crash
 /// on damaged files. Files of Targa have no signature, and those of the PNM family are told by their second
 /// letter.
-std::string format_of(const fs::path& file, const Head& head) {
+std::string format_of(const fs::path& file, const ImageHead& head) {
     const std::string_view start(head.data(), head.size());
     for (const Signature& known : kSignatures) {
         if (start.starts_with(known.start)) {
@@ -89,17 +87,6 @@ std::string format_of(const fs::path& file, const Head& head) {
                "it is none of EXR, PNG, JPEG, HDR, TIFF, Targa, BMP, GIF, WebP, PSD, DDS, PNM and PFM");
 }
 
-/// Refuses a GIF file whose screen is out of proportion to its size. OpenImageIO takes memory for the screen
-/// as soon as it opens the file.
-void check_gif_screen(const fs::path& file, const Head& head, OIIO::Filesystem::IOProxy* memory) {
-    const auto number = [&](std::size_t at) {
-        return std::uintmax_t{static_cast<unsigned char>(head.at(at))} +
-               256u * static_cast<unsigned char>(head.at(at + 1));
-    };
-    constexpr std::uintmax_t kPixelBytes = 4;
-    check_fits_in_file(file, kPixelBytes * number(6) * number(8), size_of(file, memory));
-}
-
 /// Refuses a TIFF file of CMYK in tiles, whatever its compression. OpenImageIO 2.4 takes room for three
 /// channels, and writes four.
 void check_tiff_tiles(const fs::path& file, const OIIO::ImageSpec& spec) {
@@ -110,10 +97,12 @@ void check_tiff_tiles(const fs::path& file, const OIIO::ImageSpec& spec) {
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::IOProxy* memory = nullptr) {
-    const Head head = read_head(file, memory);
+    const ImageHead head = read_head(file, memory);
     const std::string format = format_of(file, head);
     if (format == "gif") {
-        check_gif_screen(file, head, memory);
+        check_gif_screen(file, head, size_of(file, memory));
+    } else if (format == "dds") {
+        check_dds_masks(file, head);
     }
     OIIO::ImageSpec options = reading_options();
     // The proxy is passed both ways, because some formats take it from the options and ignore the other.

@@ -76,5 +76,51 @@ TEST(OddImages, CmykTiffsInTilesAreRefused) {
               std::string::npos);
 }
 
+/// A DDS file of one pixel of 32 bits without compression, 0xff804020 with its alpha first.
+std::string dds(std::uint32_t flags, const std::array<std::uint32_t, 4>& masks) {
+    std::string text = "DDS ";
+    for (const std::uint32_t number : {124u, 0x100fu, 1u, 1u, 4u, 0u, 0u}) {
+        put(text, number, 4);
+    }
+    text.append(44, '\0');
+    for (const std::uint32_t number :
+         {32u, flags, 0u, 32u, masks[0], masks[1], masks[2], masks[3], 0x1000u}) {
+        put(text, number, 4);
+    }
+    text.append(16, '\0');
+    put(text, 0xff804020u, 4);
+    return text;
+}
+
+TEST(OddImages, DdsFilesNeedBitsForEachChannel) {
+    const TemporaryFolder folder;
+    const auto read = [&](std::uint32_t flags, std::array<std::uint32_t, 4> masks) {
+        write_text(folder / "a.dds", dds(flags, masks));
+        return read_image(folder / "a.dds");
+    };
+    const auto is_refused = [&](std::uint32_t flags, std::array<std::uint32_t, 4> masks) {
+        return error_of(ErrorKind::file, [&] {
+                   read(flags, masks);
+               }).find("no bits for one of its channels") != std::string::npos;
+    };
+    constexpr std::uint32_t kRgb = 0x40;
+    constexpr std::uint32_t kLuminance = 0x20000;
+    constexpr std::uint32_t kAlpha = 1;
+    constexpr std::uint32_t kAlphaOnly = 2;
+    constexpr std::array kAll{0xff0000u, 0xff00u, 0xffu, 0xff000000u};
+    constexpr std::array kOpaque{0xff0000u, 0xff00u, 0xffu, 0u};
+    EXPECT_FLOAT_EQ(read(kRgb, kOpaque).at(0, 0, 0), 128.0f / 255.0f);
+    EXPECT_FLOAT_EQ(read(kRgb | kAlpha, kAll).at(0, 0, 3), 1.0f);
+    EXPECT_EQ(read(kLuminance, {0xffffffffu, 0, 0, 0}).channel_count(), 1u);
+    EXPECT_EQ(read(kAlphaOnly, {0, 0, 0, 0xff000000u}).channel_count(), 1u);
+    EXPECT_TRUE(is_refused(kRgb, {0, 0, 0, 0}));
+    EXPECT_TRUE(is_refused(kRgb, {0xff0000u, 0, 0xffu, 0}));
+    EXPECT_TRUE(is_refused(kRgb | kAlpha, kOpaque));
+    EXPECT_TRUE(is_refused(kLuminance, {0, 0xffu, 0xff00u, 0xff000000u}));
+    EXPECT_TRUE(is_refused(kLuminance | kAlpha, {0xffu, 0, 0, 0}));
+    EXPECT_TRUE(is_refused(kAlphaOnly, kOpaque));
+    EXPECT_TRUE(is_refused(kAlphaOnly | kAlpha, {0xffu, 0, 0, 0xff000000u}));
+}
+
 }  // namespace
 }  // namespace nearlight::core
