@@ -198,6 +198,19 @@ std::optional<ImagePlace> place_of(const OIIO::ImageSpec& spec) {
     return place == all ? std::nullopt : std::optional(place);
 }
 
+/// Whether all that a reader reported are bytes that belong to no part of a JPEG file, as some cameras leave
+/// them. They cost no pixel.
+bool are_spare_bytes(std::string_view reports) {
+    while (!reports.empty()) {
+        const std::string_view line = reports.substr(0, reports.find('\n'));
+        if (line.find("extraneous bytes before marker") == std::string_view::npos) {
+            return false;
+        }
+        reports.remove_prefix(std::min(line.size() + 1, reports.size()));
+    }
+    return true;
+}
+
 Image decode(const fs::path& file, std::span<const std::byte> bytes) {
     if (std::optional<Image> webp = decode_webp(file, bytes)) {
         return std::move(*webp);
@@ -219,8 +232,10 @@ Image decode(const fs::path& file, std::span<const std::byte> bytes) {
                 .values = {},
                 .holds_floats = spec.format.is_floating_point(),
                 .place = place_of(spec)};
-    if (!read_pixels(*input, image.values) || input->has_error()) {
-        fail_image("cannot read image", file, input->geterror());
+    const bool has_pixels = read_pixels(*input, image.values);
+    const std::string reports = input->geterror();
+    if (!has_pixels || !are_spare_bytes(reports)) {
+        fail_image("cannot read image", file, reports);
     }
     return image;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files that are sound but rare, or that OpenImageIO does not survive.
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -120,6 +121,28 @@ TEST(OddImages, DdsFilesNeedBitsForEachChannel) {
     EXPECT_TRUE(is_refused(kLuminance | kAlpha, {0xffu, 0, 0, 0}));
     EXPECT_TRUE(is_refused(kAlphaOnly, kOpaque));
     EXPECT_TRUE(is_refused(kAlphaOnly | kAlpha, {0xffu, 0, 0, 0xff000000u}));
+}
+
+TEST(OddImages, SpareBytesInJpegsCostNothing) {
+    const TemporaryFolder folder;
+    const auto output = OIIO::ImageOutput::create("jpeg");
+    ASSERT_TRUE(output &&
+                output->open((folder / "a.jpg").string(), OIIO::ImageSpec(40, 40, 3, OIIO::TypeDesc::FLOAT)));
+    const Image image = noise(40, 40, {"R", "G", "B"});
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, image.values.data()));
+    ASSERT_TRUE(output->close());
+    const std::string whole = read_text(folder / "a.jpg");
+    const Image expected = read_image(folder / "a.jpg");
+    for (const std::size_t at : {whole.find("\xff\xdb"), whole.find("\xff\xda"), whole.size() - 2}) {
+        std::string text = whole;
+        text.insert(at, "spare");
+        write_text(folder / "b.jpg", text);
+        expect_same(read_image(folder / "b.jpg"), expected);
+    }
+    std::string cut = whole;
+    cut.erase(cut.size() * 3 / 4).append("\xff\xd9");
+    write_text(folder / "b.jpg", cut);
+    error_of(ErrorKind::file, [&] { read_image(folder / "b.jpg"); });
 }
 
 }  // namespace
