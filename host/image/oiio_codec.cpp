@@ -219,6 +219,9 @@ Image decode(const fs::path& file, std::span<const std::byte> bytes) {
     OIIO::Filesystem::IOProxy* const proxy = bytes.empty() ? nullptr : &memory;
     const auto input = open(file, proxy);
     const OIIO::ImageSpec& spec = input->spec();
+    if (spec.deep) {
+        fail_image("cannot read image", file, "deep images are not supported; save it flattened");
+    }
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         fail_image("cannot read image", file, "it is not a plain two-dimensional image");
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files that are sound but rare, or that OpenImageIO does not survive.
+#include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
@@ -143,6 +144,21 @@ TEST(OddImages, SpareBytesInJpegsCostNothing) {
     cut.erase(cut.size() * 3 / 4).append("\xff\xd9");
     write_text(folder / "b.jpg", cut);
     error_of(ErrorKind::file, [&] { read_image(folder / "b.jpg"); });
+}
+
+TEST(OddImages, DeepImagesAreNamed) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(2, 2, 3, OIIO::TypeDesc::HALF);
+    spec.channelnames = {"R", "A", "Z"};
+    spec.deep = true;
+    const auto output = OIIO::ImageOutput::create("openexr");
+    ASSERT_TRUE(output && output->open((folder / "a.exr").string(), spec));
+    OIIO::DeepData samples(spec);
+    samples.set_samples(0, 1);
+    ASSERT_TRUE(output->write_deep_image(samples));
+    ASSERT_TRUE(output->close());
+    EXPECT_NE(error_of(ErrorKind::file, [&] { read_image(folder / "a.exr"); }).find("deep images are not"),
+              std::string::npos);
 }
 
 }  // namespace
