@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/scene/corner_uvs.h"
@@ -53,8 +54,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, const PlyTask& 
     }
 }
 
-uint read_index(PlyReader& reader, PlyScalar type, const Mesh& mesh) {
-    const double index = reader.read(type);
+uint checked_index(double index, const Mesh& mesh) {
     if (!(index >= 0.0 && index < static_cast<double>(mesh.positions.size()))) {
         std::ostringstream text;  // any number may stand there
         text << "PLY face refers to vertex " << index << ", but there are only " << mesh.positions.size();
@@ -85,21 +85,36 @@ bool has_face_column(const PlyHeader& header, FaceColumn wanted) {
     });
 }
 
-/// Reads faces and adds their triangles to a mesh that has its vertices.
+constexpr std::string_view kStrips = "tristrips";
+
+bool is_surface(const PlyElement& element) {
+    return element.name == "face" || element.name == kStrips;
+}
+
+/// Reads faces and strips of triangles, and adds them to a mesh that has its vertices.
 class PlyFaceReader {
   public:
-    PlyFaceReader(PlyReader& reader, const PlyTask& task, Mesh& mesh)
-        : reader_(reader), task_(task), mesh_(mesh) {}
+    PlyFaceReader(const PlyTask& task, Mesh& mesh) : task_(task), mesh_(mesh) {}
 
-    void read(const PlyElement& element) {
+    void read(PlyReader& reader, const PlyElement& element) {
         const PlyColumns columns = attribute_columns(element, task_.face_attribute);
-        mesh_.triangles.reserve(element.count);
-        mesh_.face_colors.reserve(columns.channels == 0 ? 0 : element.count);
+        const bool has_colors = columns.channels > 0 || !mesh_.face_colors.empty();
+        mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
+        if (has_colors) {
+            mesh_.face_colors.resize(mesh_.triangles.size(), kNoColor);
+            mesh_.face_colors.reserve(mesh_.triangles.capacity());
+        }
         for (std::size_t i = 0; i < element.count; ++i) {
-            read_face(element, columns);
-            add_triangles();
-            if (columns.channels > 0) {
-                mesh_.face_colors.resize(mesh_.triangles.size(), attribute_value(row_, columns.channels));
+            read_face(reader, element, columns);
+            if (element.name == kStrips) {
+                add_strips();
+            } else {
+                add_face();
+            }
+            if (has_colors) {
+                mesh_.face_colors.resize(mesh_.triangles.size(), columns.channels > 0
+                                                                     ? attribute_value(row_, columns.channels)
+                                                                     : kNoColor);
             }
         }
     }
@@ -108,9 +123,8 @@ class PlyFaceReader {
     [[nodiscard]] const std::vector<std::array<float, 2>>& corner_uvs() const { return corner_uvs_; }
 
   private:
-    void read_face(const PlyElement& element, const PlyColumns& columns) {
-        face_.clear();
-        corners_.clear();
+    void read_face(PlyReader& reader, const PlyElement& element, const PlyColumns& columns) {
+        numbers_.clear();
         uvs_.clear();
         texture_ = 0.0;
         row_ = {};
@@ -118,40 +132,39 @@ class PlyFaceReader {
             const PlyProperty& property = element.properties[i];
             switch (face_column(property, columns.slots[i])) {
                 case FaceColumn::corners:
-                    read_corners(property);
+                    read_corners(reader, property);
                     break;
                 case FaceColumn::uvs:
-                    read_uvs(property);
+                    read_uvs(reader, property);
                     break;
                 case FaceColumn::texture:
-                    texture_ = reader_.read(property.type);
+                    texture_ = reader.read(property.type);
                     break;
                 case FaceColumn::channel:
-                    read_slot(reader_, property.type, columns.slots[i], task_.code, row_);
+                    read_slot(reader, property.type, columns.slots[i], task_.code, row_);
                     break;
                 case FaceColumn::skipped:
-                    reader_.skip(property);
+                    reader.skip(property);
                     break;
             }
         }
     }
 
-    void read_corners(const PlyProperty& property) {
-        const double count = reader_.read(property.count_type);
-        for (int corner = 0; corner < count; ++corner) {
-            face_.push_back(read_index(reader_, property.type, mesh_));
-            corners_.push_back(mesh_.positions[face_.back()]);
+    void read_corners(PlyReader& reader, const PlyProperty& property) {
+        const double count = reader.read(property.count_type);
+        for (double corner = 0; corner < count; ++corner) {
+            numbers_.push_back(reader.read(property.type));
         }
     }
 
-    void read_uvs(const PlyProperty& property) {
+    void read_uvs(PlyReader& reader, const PlyProperty& property) {
         if (!task_.has_corner_uvs) {
-            reader_.skip(property);
+            reader.skip(property);
             return;
         }
-        const double count = reader_.read(property.count_type);
+        const double count = reader.read(property.count_type);
         for (double i = 0; i < count; ++i) {
-            const auto value = static_cast<float>(reader_.read(property.type));
+            const auto value = static_cast<float>(reader.read(property.type));
             uvs_.push_back(std::isfinite(value) ? value : 0.0f);
         }
     }
@@ -166,7 +179,13 @@ class PlyFaceReader {
         return has_uvs() && is_known ? static_cast<uint>(texture_) + 1 : 0;
     }
 
-    void add_triangles() {
+    void add_face() {
+        face_.clear();
+        corners_.clear();
+        for (const double number : numbers_) {
+            face_.push_back(checked_index(number, mesh_));
+            corners_.push_back(mesh_.positions[face_.back()]);
+        }
         if (face_.size() < 3) {
             return;
         }
@@ -176,6 +195,38 @@ class PlyFaceReader {
                 add_corner_uv(corner);
             }
         }
+        add_groups();
+    }
+
+    /// Strips whose ends −1 marks. Every other triangle of a strip runs the other way round, and those with a
+    /// corner twice only lead from one place to another.
+    void add_strips() {
+        face_.clear();
+        for (const double number : numbers_) {
+            if (number == -1.0) {
+                face_.clear();
+                continue;
+            }
+            face_.push_back(checked_index(number, mesh_));
+            if (face_.size() < 3) {
+                continue;
+            }
+            std::array<uint, 3> triangle;
+            std::copy(face_.end() - 3, face_.end(), triangle.begin());
+            if (face_.size() % 2 == 0) {
+                std::swap(triangle[1], triangle[2]);
+            }
+            if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) {
+                mesh_.triangles.push_back(triangle);
+            }
+        }
+        if (task_.has_corner_uvs) {
+            corner_uvs_.resize(3 * mesh_.triangles.size());
+        }
+        add_groups();
+    }
+
+    void add_groups() {
         if (task_.has_corner_uvs || (task_.texture_count > 0 && !mesh_.uvs.empty())) {
             mesh_.groups.resize(mesh_.triangles.size(), group());
         }
@@ -188,14 +239,14 @@ class PlyFaceReader {
         }
     }
 
-    PlyReader& reader_;
     const PlyTask& task_;
     Mesh& mesh_;
     std::vector<std::array<float, 2>> corner_uvs_;
     // Of the present face:
-    std::vector<uint> face_;     ///< its vertices
-    std::vector<Vec3> corners_;  ///< their positions
-    std::vector<float> uvs_;     ///< u and v of each corner
+    std::vector<double> numbers_;  ///< its list of vertices, as the file has it
+    std::vector<uint> face_;       ///< its vertices
+    std::vector<Vec3> corners_;    ///< their positions
+    std::vector<float> uvs_;       ///< u and v of each corner
     double texture_ = 0.0;
     PlyRow row_{};
 };
@@ -226,16 +277,25 @@ Mesh read_ply_mesh(const std::filesystem::path& file, std::string_view data, con
     PlyReader reader(file, data, header.format);
     Mesh mesh;
     mesh.source = file;
-    PlyFaceReader faces(reader, task, mesh);
+    PlyFaceReader faces(task, mesh);
+    std::vector<std::pair<PlyReader, const PlyElement*>> waiting;  // for the vertices, which come later
+    bool has_vertices = false;
     for (const PlyElement& element : header.elements) {
         reader.check_size_of(element);
         if (element.name == "vertex") {
             read_vertices(reader, element, task, mesh);
-        } else if (element.name == "face") {
-            faces.read(element);
+            has_vertices = true;
+        } else if (is_surface(element) && has_vertices) {
+            faces.read(reader, element);
         } else {
+            if (is_surface(element)) {
+                waiting.emplace_back(reader, &element);
+            }
             skip_element(reader, element);
         }
+    }
+    for (auto& [place, element] : waiting) {
+        faces.read(place, *element);
     }
     if (mesh.triangles.empty()) {
         fail_ply(file, "has no triangles");

@@ -231,5 +231,46 @@ TEST(PlyScene, FacesThatShareNoVertexAreSmoothToo) {
     expect_near(normal(0, 1), {0, 0, 1});
 }
 
+TEST(PlyScene, FacesMayStandBeforeTheirVertices) {
+    const SceneFiles files;
+    const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
+    const std::string vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    const auto load = [&](const std::string& body) {
+        return load_scene(
+            files.write("f.ply", "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n" + body));
+    };
+    const Scene scene = load("3 0 1 2\n3 0 2 3\n" + kWedgeVertices);
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    EXPECT_EQ(scene.triangles[1].v2, 3u);
+    EXPECT_TRUE(mentions(file_error([&] { load("3 0 1 2\n3 0 2 4\n" + kWedgeVertices); }), "only 4"));
+}
+
+/// Two strips in one list: a square of two triangles, then one triangle. A corner that stands twice turns the
+/// next triangle round once more.
+TEST(PlyScene, StripsOfTrianglesAreRead) {
+    const SceneFiles files;
+    const auto load = [&](const std::string& strip) {
+        std::string header = kHeader;
+        header.replace(header.find("vertex 3"), 8, "vertex 4");
+        return load_scene(files.write("s.ply", header +
+                                                   "element tristrips 1\nproperty list int int "
+                                                   "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 "
+                                                   "0\n" +
+                                                   strip));
+    };
+    const Scene scene = load("8 0 1 2 3 -1 2 1 3\n");
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    const auto normal = [&](const Scene& of, std::size_t triangle) {
+        const Triangle& t = of.triangles.at(triangle);
+        const Vec3 a = of.vertices[t.v0].position;
+        return normalize(cross(of.vertices[t.v1].position - a, of.vertices[t.v2].position - a));
+    };
+    for (std::size_t triangle = 0; triangle < 3; ++triangle) {
+        expect_near(normal(scene, triangle), {0, 0, 1});
+    }
+    EXPECT_EQ(load("6 0 1 2 2 1 3\n").triangles.size(), 2u);
+    EXPECT_TRUE(mentions(file_error([&] { load("3 0 1 -2\n"); }), "vertex -2"));
+}
+
 }  // namespace
 }  // namespace nearlight::core
