@@ -151,18 +151,74 @@ T PlyReader::read_binary() {
     return std::bit_cast<T>(bytes);
 }
 
+void PlyReader::fail(const std::string& what) const {
+    if (odd_place_ == nullptr) {
+        fail_ply(file_, what);
+    }
+    const std::string_view before(text_.data(), static_cast<std::size_t>(odd_place_ - text_.data()));
+    const auto line = 1 + std::ranges::count(before, end_of_lines(text_));
+    fail_ply(file_, "line " + std::to_string(line) +
+                        " does not hold what the PLY header says of its columns; export the file again (" +
+                        what + ")");
+}
+
+/// Passes over blanks, ends of lines and, between rows, comments. The first end of a line within a row
+/// is remembered.
+void PlyReader::skip_blanks() {
+    const char* place = data_.data();
+    const char* const end = place + data_.size();
+    for (; place != end; ++place) {
+        const bool ends_line = *place == '\n' || *place == '\r';
+        if (ends_line && is_in_row_ && odd_place_ == nullptr) {
+            odd_place_ = place;
+        }
+        if (!is_in_row_ && (std::string_view(place, end).starts_with("comment") ||
+                            std::string_view(place, end).starts_with("obj_info"))) {
+            place = std::find_if(place, end, [](char c) { return c == '\n' || c == '\r'; });
+            if (place == end) {
+                break;
+            }
+        } else if (!ends_line && *place != ' ' && *place != '\t') {
+            break;
+        }
+    }
+    data_ = {place, end};
+}
+
+void PlyReader::end_row() {
+    is_in_row_ = false;
+    if (format_ != PlyFormat::ascii || odd_place_ != nullptr) {
+        return;
+    }
+    data_.remove_prefix(std::min(data_.find_first_not_of(" \t"), data_.size()));
+    if (!data_.empty() && data_[0] != '\n' && data_[0] != '\r') {
+        odd_place_ = data_.data();
+    }
+}
+
+void PlyReader::check_end() {
+    if (format_ != PlyFormat::ascii || odd_place_ == nullptr) {
+        return;
+    }
+    skip_blanks();
+    if (!data_.empty()) {
+        fail("more numbers stand behind the last row");
+    }
+}
+
 double PlyReader::read_word() {
-    data_.remove_prefix(std::min(data_.find_first_not_of(" \t\r\n"), data_.size()));
+    skip_blanks();
+    is_in_row_ = true;
     if (data_.empty()) {
-        fail_ply(file_, "PLY file is truncated");
+        fail("PLY file is truncated");
     }
     double value = 0.0;
     const bool has_plus = data_[0] == '+' && !data_.substr(1).starts_with('-');
     const auto [end, error] =
         std::from_chars(data_.data() + (has_plus ? 1 : 0), data_.data() + data_.size(), value);
     if (error != std::errc()) {
-        fail_ply(file_, "PLY file has '" + std::string(data_.substr(0, data_.find_first_of(" \t\r\n"))) +
-                            "' where a number should be");
+        fail("PLY file has '" + std::string(data_.substr(0, data_.find_first_of(" \t\r\n"))) +
+             "' where a number should be");
     }
     data_.remove_prefix(static_cast<std::size_t>(end - data_.data()));
     return value;

@@ -46,14 +46,22 @@ struct PlyHeader {
 PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text);
 
 /// Reads one number after the other, whatever the format. It keeps references to the file's name and text,
-/// and throws Error(ErrorKind::file) where a number should be and is not.
+/// and throws Error(ErrorKind::file) where a number should be and is not. In ASCII, comments
+/// between rows are passed over. A row that is not one line counts as long as the file has as many
+/// numbers as its header promises.
 class PlyReader {
   public:
-    /// `data` is what follows the header.
-    PlyReader(const std::filesystem::path& file, std::string_view data, PlyFormat format)
-        : file_(file), data_(data), format_(format) {}
+    PlyReader(const std::filesystem::path& file, std::string_view text, const PlyHeader& header)
+        : file_(file), text_(text), data_(text.substr(header.size)), format_(header.format) {}
 
     double read(PlyScalar type);
+    /// Called behind each row.
+    void end_row();
+    /// Throws Error(ErrorKind::file) if there is more behind the last row, and rows were not lines, because
+    /// the numbers before are then not those that they were taken for.
+    void check_end();
+    /// Throws Error(ErrorKind::file), which says so if a row before was not one line.
+    [[noreturn]] void fail(const std::string& what) const;
     /// Passes over a number or a list.
     void skip(const PlyProperty& property);
     /// Throws Error(ErrorKind::file) if the rest of the file is too short for a table, so that nobody takes
@@ -63,11 +71,15 @@ class PlyReader {
   private:
     template <typename T>
     T read_binary();
+    void skip_blanks();
     double read_word();
 
     const std::filesystem::path& file_;
-    std::string_view data_;
+    std::string_view text_;
+    std::string_view data_;  ///< what has not been read
     PlyFormat format_;
+    bool is_in_row_ = false;
+    const char* odd_place_ = nullptr;  ///< on the first line that is not one row
 };
 
 }  // namespace nearlight::core

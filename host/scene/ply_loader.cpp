@@ -41,6 +41,7 @@ void read_vertices(PlyReader& reader, const PlyElement& element, const PlyTask& 
     mesh.colors.reserve(has_colors ? element.count : 0);
     for (std::size_t i = 0; i < element.count; ++i) {
         const PlyRow values = read_row(reader, element, columns, task.code);
+        reader.end_row();
         mesh.positions.push_back({values[0], values[1], values[2]});
         if (has_normals) {
             mesh.normals.push_back({values[3], values[4], values[5]});
@@ -54,11 +55,11 @@ void read_vertices(PlyReader& reader, const PlyElement& element, const PlyTask& 
     }
 }
 
-uint checked_index(double index, const Mesh& mesh) {
+uint checked_index(const PlyReader& reader, double index, const Mesh& mesh) {
     if (!(index >= 0.0 && index < static_cast<double>(mesh.positions.size()))) {
         std::ostringstream text;  // any number may stand there
         text << "PLY face refers to vertex " << index << ", but there are only " << mesh.positions.size();
-        fail_ply(mesh.source, text.str());
+        reader.fail(text.str());
     }
     return static_cast<uint>(index);
 }
@@ -106,10 +107,11 @@ class PlyFaceReader {
         }
         for (std::size_t i = 0; i < element.count; ++i) {
             read_face(reader, element, columns);
+            reader.end_row();
             if (element.name == kStrips) {
-                add_strips();
+                add_strips(reader);
             } else {
-                add_face();
+                add_face(reader);
             }
             if (has_colors) {
                 mesh_.face_colors.resize(mesh_.triangles.size(), columns.channels > 0
@@ -179,11 +181,11 @@ class PlyFaceReader {
         return has_uvs() && is_known ? static_cast<uint>(texture_) + 1 : 0;
     }
 
-    void add_face() {
+    void add_face(const PlyReader& reader) {
         face_.clear();
         corners_.clear();
         for (const double number : numbers_) {
-            face_.push_back(checked_index(number, mesh_));
+            face_.push_back(checked_index(reader, number, mesh_));
             corners_.push_back(mesh_.positions[face_.back()]);
         }
         if (face_.size() < 3) {
@@ -200,14 +202,14 @@ class PlyFaceReader {
 
     /// Strips whose ends −1 marks. Every other triangle of a strip runs the other way round, and those with a
     /// corner twice only lead from one place to another.
-    void add_strips() {
+    void add_strips(const PlyReader& reader) {
         face_.clear();
         for (const double number : numbers_) {
             if (number == -1.0) {
                 face_.clear();
                 continue;
             }
-            face_.push_back(checked_index(number, mesh_));
+            face_.push_back(checked_index(reader, number, mesh_));
             if (face_.size() < 3) {
                 continue;
             }
@@ -269,12 +271,13 @@ void skip_element(PlyReader& reader, const PlyElement& element) {
         for (const PlyProperty& property : element.properties) {
             reader.skip(property);
         }
+        reader.end_row();
     }
 }
 
-Mesh read_ply_mesh(const std::filesystem::path& file, std::string_view data, const PlyHeader& header,
+Mesh read_ply_mesh(const std::filesystem::path& file, std::string_view text, const PlyHeader& header,
                    const PlyTask& task) {
-    PlyReader reader(file, data, header.format);
+    PlyReader reader(file, text, header);
     Mesh mesh;
     mesh.source = file;
     PlyFaceReader faces(task, mesh);
@@ -294,6 +297,7 @@ Mesh read_ply_mesh(const std::filesystem::path& file, std::string_view data, con
             skip_element(reader, element);
         }
     }
+    reader.check_end();
     for (auto& [place, element] : waiting) {
         faces.read(place, *element);
     }
@@ -315,7 +319,7 @@ Mesh read_ply(const std::filesystem::path& file, const PlyAttribute& attribute) 
     };
     const std::string text = read_file_text(file);
     const PlyHeader header = parse_ply_header(file, text);
-    return read_ply_mesh(file, std::string_view(text).substr(header.size), header,
+    return read_ply_mesh(file, text, header,
                          {.vertex_attribute = name_after("vertex_"),
                           .face_attribute = name_after("face_"),
                           .code = attribute.code});
@@ -328,7 +332,7 @@ PlyModel read_ply_model(const std::filesystem::path& file) {
     model.textures = texture_comments(header);
     model.are_textures_numbered = has_face_column(header, FaceColumn::texture);
     model.mesh = read_ply_mesh(
-        file, std::string_view(text).substr(header.size), header,
+        file, text, header,
         {.vertex_attribute = "color",
          .face_attribute = {},
          .code = PlyCode::display,

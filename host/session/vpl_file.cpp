@@ -186,6 +186,7 @@ std::vector<Vpl> read_vpls(const fs::path& file, PlyReader& reader, const PlyEle
                 row[static_cast<std::size_t>(places[p])] = reader.read(element.properties[p].type);
             }
         }
+        reader.end_row();
         vpls.push_back(vpl_of(file, i, row, has_shading));
     }
     return vpls;
@@ -216,7 +217,7 @@ VplFile read_vpl_file(const fs::path& file) {
     if (element != header.elements.begin() || element == header.elements.end()) {
         fail_ply(file, "VPLs must be the first element of the file, and be called `vertex`");
     }
-    PlyReader reader(file, std::string_view(text).substr(header.size), header.format);
+    PlyReader reader(file, text, header);
     if (element->count > kMaxVpls) {
         fail_ply(file, "it has more than " + decimal(kMaxVpls) + " VPLs");
     }

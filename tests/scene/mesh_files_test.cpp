@@ -114,6 +114,38 @@ TEST(Ply, EveryTruncationIsAnError) {
     }
 }
 
+TEST(Ply, LinesThatDoNotHoldWhatTheHeaderSaysAreErrors) {
+    const SceneFiles files;
+    const auto read = [&](const std::string& body) {
+        return read_ply(files.write("c.ply", "ply\nformat ascii 1.0\n" + kPlyHeader + body));
+    };
+    const auto names_line = [&](const std::string& body, const std::string& line) {
+        const std::string message = file_error([&] { read(body); });
+        return mentions(message, "c.ply: " + line + " does not hold what the PLY header says");
+    };
+    const std::string vertices = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n";
+    // The header has eleven lines.
+    EXPECT_TRUE(names_line(vertices + "4 0 1 2 3 255 255 255\n", "line 16"));
+    EXPECT_TRUE(names_line("0 0 0 0 0\n1 0 0 1 0 7\n1 1 0 1 1 7\n0 1 0 0 1 7\n4 0 1 2 3\n", "line 13"));
+    EXPECT_TRUE(names_line("0 0 0 0\n1 0 0 1\n1 1 0 1\n0 1 0 0\n4 0 1 2 3\n", "line 12"));
+    // Numbers that are all there count, however lines end between them.
+    expect_square(read("0 0 0 0 0 1 0 0 1 0\n1 1 0\n1 1\n0 1 0 0 1\n4 0 1\n2 3\n"));
+    expect_square(read(vertices + "4 0 1 2 3\nsome words\n"));
+}
+
+TEST(Ply, MayHaveCommentsBetweenItsRows) {
+    const SceneFiles files;
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        std::string text = "ply\nformat ascii 1.0\n" + kPlyHeader +
+                           "0 0 0 0 0\n  comment 1 2\ncomment\n\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n"
+                           "comment of faces\n4 0 1 2 3\ncomment";
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size()) {
+            text.replace(at, 1, end);
+        }
+        expect_square(read_ply(files.write("c.ply", text)));
+    }
+}
+
 TEST(Ply, IndicesOutOfRangeAreErrors) {
     const SceneFiles files;
     for (const char* face : {"3 0 1 4\n", "3 0 1 -1\n"}) {
