@@ -15,9 +15,9 @@ Scene begin_model(const std::filesystem::path& file) {
     return scene;
 }
 
-uint add_plain_surface(Scene& scene, bool has_vertex_colors) {
+uint add_plain_surface(Scene& scene, bool has_colors) {
     Material surface = diffuse_material({0.5f, 0.5f, 0.5f});
-    if (has_vertex_colors) {
+    if (has_colors) {
         surface.reflectance = textured(add_texture(scene, vertex_color_texture()));
     }
     return add_two_sided(scene, surface);

@@ -12,9 +12,9 @@ namespace nearlight::core {
 /// An empty scene that has the name of the file.
 Scene begin_model(const std::filesystem::path& file);
 
-/// Adds the two-sided material of a surface for which the file has none: grey, or the vertices' colours if
-/// they have some. Returns its index.
-uint add_plain_surface(Scene& scene, bool has_vertex_colors);
+/// Adds the two-sided material of a surface for which the file has none: grey, or the colours of vertices or
+/// faces if they have some. Returns its index.
+uint add_plain_surface(Scene& scene, bool has_colors);
 
 /// Completes the scene: with the default camera, the default light unless the options bring some, and an open
 /// exposure. Throws Error(ErrorKind::invalid_argument) if the options ask for another camera.

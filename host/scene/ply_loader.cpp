@@ -253,6 +253,12 @@ class PlyFaceReader {
     PlyRow row_{};
 };
 
+bool has_color_columns(const PlyHeader& header, std::string_view name) {
+    return std::ranges::any_of(header.elements, [&](const PlyElement& element) {
+        return element.name == name && attribute_columns(element, "color").channels > 0;
+    });
+}
+
 /// The names behind "TextureFile" in comments.
 std::vector<std::string> texture_comments(const PlyHeader& header) {
     constexpr std::string_view kWord = "TextureFile";
@@ -331,10 +337,12 @@ PlyModel read_ply_model(const std::filesystem::path& file) {
     PlyModel model;
     model.textures = texture_comments(header);
     model.are_textures_numbered = has_face_column(header, FaceColumn::texture);
+    const bool has_vertex_colors = has_color_columns(header, "vertex");
+    model.has_colors_of_both = has_vertex_colors && has_color_columns(header, "face");
     model.mesh = read_ply_mesh(
         file, text, header,
         {.vertex_attribute = "color",
-         .face_attribute = {},
+         .face_attribute = has_vertex_colors ? "" : "color",
          .code = PlyCode::display,
          .texture_count = model.textures.size(),
          .has_corner_uvs = !model.textures.empty() && has_face_column(header, FaceColumn::uvs)});

@@ -34,6 +34,7 @@ struct PlyModel {
     Mesh mesh;
     std::vector<std::string> textures;   ///< names of image files
     bool are_textures_numbered = false;  ///< the faces say which one they have
+    bool has_colors_of_both = false;     ///< of vertices, which are the mesh's, and of faces
 };
 
 /// Reads a file with the names of its textures, which MeshLab and others write into comments ("TextureFile

@@ -44,12 +44,21 @@ class PlyMaterials {
     }
 
   private:
-    [[nodiscard]] bool has_colors() const { return !model_.mesh.colors.empty(); }
+    [[nodiscard]] bool has_colors() const {
+        return !model_.mesh.colors.empty() || !model_.mesh.face_colors.empty();
+    }
+    [[nodiscard]] std::string colors() const {
+        return model_.mesh.colors.empty() ? "colours of faces" : "colours of vertices";
+    }
     [[nodiscard]] ImageSource image_of(std::size_t texture) const {
         return {.file = find_moved_file(scene_.source, model_.textures[texture])};
     }
 
     void note_what_has_no_place() {
+        if (model_.has_colors_of_both) {
+            notes_.remark(scene_.source, 0,
+                          "the file has colours of vertices and of faces; those of vertices are used");
+        }
         if (model_.textures.empty()) {
             return;
         }
@@ -76,22 +85,22 @@ class PlyMaterials {
         loader_.expect(std::move(images));
     }
 
-    /// The surface of a texture, or of the vertices' colours if the image cannot be read and there are some.
+    /// The surface of a texture, or of the mesh's colours if the image cannot be read and there are some.
     uint add_textured(std::size_t texture) {
         const ImageSource image = image_of(texture);
         if (has_colors() && !loader_.can_read(image)) {
             notes_.approximation(scene_.source, 0,
-                                 "the texture '" + image.file.string() +
-                                     "' cannot be read; the colours of vertices are used in its place");
+                                 "the texture '" + image.file.string() + "' cannot be read; the " + colors() +
+                                     " are used in its place");
             return add_plain_surface(scene_, true);
         }
         Material surface = diffuse_material({0.5f, 0.5f, 0.5f});
         if (const int index = loader_.load(image, {}, scene_.source, 0); index >= 0) {
             surface.reflectance = textured(add_texture(scene_, plain_texture(index)));
             if (has_colors()) {
-                notes_.remark(scene_.source, 0,
-                              "the file has a texture and colours of vertices; surfaces with the texture "
-                              "have no other");
+                notes_.remark(
+                    scene_.source, 0,
+                    "the file has a texture and " + colors() + "; surfaces with the texture have no other");
             }
         }
         return add_two_sided(scene_, surface);
@@ -112,6 +121,7 @@ Scene load_ply_scene(const std::filesystem::path& file, const LoadOptions& optio
     Mesh& mesh = model.mesh;
     check_mesh(mesh);
     decode_display_colors(mesh.colors);
+    decode_display_colors(mesh.face_colors);
     if (mesh.normals.empty()) {
         add_crease_normals(mesh, places_of(mesh.positions),
                            std::vector<uint>(mesh.triangles.size(), kSmoothByAngle));

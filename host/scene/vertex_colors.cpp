@@ -51,6 +51,9 @@ void decode_display_colors(std::span<Vec3> colors) {
         std::ranges::all_of(colors, is_whole) &&
         std::ranges::any_of(colors, [](Vec3 color) { return max_component(color) > 1.0f; });
     for (Vec3& color : colors) {
+        if (color == kNoColor) {
+            continue;
+        }
         const Vec3 encoded = are_bytes ? color / 255.0f : color;
         color = {srgb_to_linear(encoded.x), srgb_to_linear(encoded.y), srgb_to_linear(encoded.z)};
     }

@@ -10,7 +10,7 @@
 namespace nearlight::core {
 
 /// Makes linear colours of those that programs for looking at meshes write: sRGB, as whole numbers up to 255,
-/// or as numbers up to 1.
+/// or as numbers up to 1. kNoColor stays.
 void decode_display_colors(std::span<Vec3> colors);
 
 /// Drops the colours of vertices if no texture asks for them. Otherwise missing colours become white, with a

@@ -272,5 +272,34 @@ TEST(PlyScene, StripsOfTrianglesAreRead) {
     EXPECT_TRUE(mentions(file_error([&] { load("3 0 1 -2\n"); }), "vertex -2"));
 }
 
+TEST(PlyScene, FacesMayHaveColours) {
+    const SceneFiles files;
+    const std::string channels = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    const auto load = [&](const std::string& of_vertices, const std::string& color) {
+        std::string body;
+        for (const char* vertex : {"0 0 0", "1 0 0", "1 1 0", "0 1 0"}) {
+            body += std::string(vertex) + color + "\n";
+        }
+        return load_scene(
+            files.write("f.ply",
+                        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                        "property float z\n" +
+                            of_vertices + "element face 2\nproperty list uchar int vertex_indices\n" +
+                            channels + "end_header\n" + body + "3 0 1 2 255 0 0\n3 0 2 3 0 128 255\n"));
+    };
+    const auto color = [](const Scene& scene, std::size_t triangle) {
+        EXPECT_GE(only_side(scene).reflectance.texture, 0);
+        return scene.vertex_colors.at(scene.triangles.at(triangle).v0);
+    };
+    const Scene scene = load("", "");
+    expect_near(color(scene, 0), {1, 0, 0});
+    expect_near(color(scene, 1), {0, 0.2158605f, 1}, 1e-4f);
+    EXPECT_EQ(scene.vertices.size(), 6u);
+    EXPECT_FALSE(has_note(scene, "colours"));
+    const Scene both = load(channels, " 0 255 0");
+    expect_near(color(both, 0), {0, 1, 0});
+    EXPECT_TRUE(has_note(both, "those of vertices are used"));
+}
+
 }  // namespace
 }  // namespace nearlight::core
