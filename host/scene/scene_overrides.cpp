@@ -79,9 +79,9 @@ SkyLight sky_of(const SunPosition& sun, bool has_sun) {
     const double azimuth = sun.azimuth * std::numbers::pi / 180;
     const double elevation = sun.elevation * std::numbers::pi / 180;
     // The model's +X is the world's +X, and its +Y the world's −Z.
-    return {.sun = normalize({static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-                              static_cast<float>(-std::cos(azimuth) * std::cos(elevation)),
-                              static_cast<float>(std::sin(elevation))}),
+    return {.sun = normalize(Vec3{static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
+                                  static_cast<float>(-std::cos(azimuth) * std::cos(elevation)),
+                                  static_cast<float>(std::sin(elevation))}),
             .sun_scale = has_sun ? 1.0 : 0.0};
 }
 

@@ -30,7 +30,7 @@ TEST(Obj, MaterialsLightsAndMissingOnes) {
         text += std::string("usemtl ") + name + "\nf 1 2 3\n";
     }
     const Scene scene = load_obj(files, text);
-    ASSERT_EQ(scene.triangles.size(), 9u);
+    ASSERT_EQ(scene.triangles.size(), 10u) << "the last is the back of the lamp";
     const auto material = [&](std::size_t i) { return scene.materials[scene.triangles[i].material]; };
     const auto side = [&](std::size_t i) {
         EXPECT_EQ(material(i).model, NEARLIGHT_BSDF_TWO_SIDED);

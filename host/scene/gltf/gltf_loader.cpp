@@ -8,6 +8,7 @@
 #include "host/scene/gltf/meshes.h"
 #include "host/scene/gltf/nodes.h"
 #include "host/scene/model_scene.h"
+#include "host/scene/seen_side.h"
 
 namespace nearlight::core {
 namespace {
@@ -28,15 +29,6 @@ gltf::MeshMaker add_meshes(const gltf::GltfFile& file, const std::vector<gltf::P
         meshes.add(placed);
     }
     return meshes;
-}
-
-/// Where the camera of the scene stands, or where the caller places it.
-Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides) {
-    if (overrides.origin) {
-        const auto& [x, y, z] = *overrides.origin;
-        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-    }
-    return transform_point(scene.camera.to_world, {0, 0, 0});
 }
 
 /// A camera that frames the nodes at rest, so that it stays where it is while they move. Their meshes are

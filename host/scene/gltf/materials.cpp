@@ -8,6 +8,7 @@
 
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
+#include "host/scene/shining_backs.h"
 #include "host/scene/texture.h"
 
 namespace nearlight::core::gltf {
@@ -288,14 +289,8 @@ std::vector<uint> MaterialMaker::shining_backs(const std::vector<uint>& fronts) 
     std::vector<uint> backs;
     for (const uint front : fronts) {
         const auto [entry, is_new] = backs_.try_emplace(front, front);
-        const uint model = scene_.materials[front].model;
-        if (is_new && model != NEARLIGHT_BSDF_TWO_SIDED && model != NEARLIGHT_BSDF_DIFFUSE) {
-            Material back = plain_material(NEARLIGHT_BSDF_NULL);
-            back.emission = scene_.materials[front].emission;
-            entry->second = add(back);
-            if (front < scene_.material_names.size()) {
-                name_material(scene_, entry->second, std::string(scene_.material_names[front]));
-            }
+        if (is_new) {
+            entry->second = add_back_material(scene_, front);
         }
         backs.push_back(entry->second);
     }

@@ -48,9 +48,7 @@ class MaterialMaker {
     [[nodiscard]] bool absorbs_inside(int index) const;
     /// Whether light should leave the back of its surfaces, too.
     [[nodiscard]] bool emits_back(int index) const;
-    /// The materials of the backs of surfaces that shine to both sides. Those of plain opaque surfaces are
-    /// the same; others only shine, because their light passes through, and their maps are seen on, the
-    /// fronts.
+    /// The materials of the backs of surfaces that shine to both sides (add_back_material()), made once.
     [[nodiscard]] std::vector<uint> shining_backs(const std::vector<uint>& fronts);
 
   private:

@@ -8,9 +8,9 @@
 #include "host/scene/gltf/front_normals.h"
 #include "host/scene/gltf/lights_and_cameras.h"
 #include "host/scene/gltf/mesh_pose.h"
-#include "host/scene/gltf/seen_side.h"
-#include "host/scene/ray_epsilon.h"
 #include "host/scene/scene_names.h"
+#include "host/scene/seen_side.h"
+#include "host/scene/shining_backs.h"
 
 namespace nearlight::core::gltf {
 namespace {
@@ -223,25 +223,6 @@ std::vector<uint> MeshMaker::choose_materials(int material, const Mesh& mesh, bo
     return chosen;
 }
 
-/// Adds the back of a surface that shines to both sides, because triangles shine with their front only. It
-/// stands behind the front, at a distance that rays can tell.
-void MeshMaker::add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials) {
-    if (mesh.normals.empty()) {
-        mesh.normals = smooth_normals(mesh.positions, mesh.triangles);
-    }
-    const std::size_t first = scene_.vertices.size();
-    append_mesh(scene_, mesh, {.to_world = to_world, .materials = materials, .flip_normals = true}, notes_);
-    Aabb box;
-    for (std::size_t i = first; i < scene_.vertices.size(); ++i) {
-        box.extend(scene_.vertices[i].position);
-    }
-    const float extent = max_component(box.size());
-    for (std::size_t i = first; i < scene_.vertices.size(); ++i) {
-        Vertex& vertex = scene_.vertices[i];
-        vertex.position += vertex.normal * (4.0f * ray_epsilon(vertex.position, extent));
-    }
-}
-
 /// Where the node's mesh stands: once for each of its instances.
 std::vector<Mat4> MeshMaker::placements_of(const PlacedNode& placed, const tinygltf::Node& node) {
     constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
@@ -312,7 +293,7 @@ void MeshMaker::add_primitive(const tinygltf::Node& node, const tinygltf::Primit
                      .flip_normals = is_flat && linear_determinant(to_world) < 0},
                     notes_);
         if (emits_back && !is_body) {
-            add_shining_back(mesh, to_world, materials_.shining_backs(materials));
+            add_shining_back(scene_, mesh, to_world, materials_.shining_backs(materials), notes_);
         }
     }
     if (is_body) {
@@ -329,9 +310,10 @@ void MeshMaker::add_seen_backs(Vec3 eye) {
         for (const Mat4& to_world : body.placements) {
             if (shows_back(body.mesh, to_world, eye)) {
                 begin_object(scene_, body.name);
-                add_shining_back(body.mesh, to_world,
-                                 materials_.shining_backs(choose_materials(body.material, body.mesh,
-                                                                           body.has_tangents, to_world)));
+                add_shining_back(scene_, body.mesh, to_world,
+                                 materials_.shining_backs(
+                                     choose_materials(body.material, body.mesh, body.has_tangents, to_world)),
+                                 notes_);
             }
         }
     }

@@ -47,7 +47,6 @@ class MeshMaker {
     void move_joints(const tinygltf::Node& node, const PrimitiveData& data, Mesh& mesh);
     std::vector<uint> choose_materials(int material, const Mesh& mesh, bool has_tangents,
                                        const Mat4& to_world);
-    void add_shining_back(Mesh mesh, const Mat4& to_world, std::span<const uint> materials);
     [[nodiscard]] std::vector<Mat4> placements_of(const PlacedNode& placed, const tinygltf::Node& node);
 
     const GltfFile& file_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/seen_side.h"
+#include "host/scene/seen_side.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "host/base/vec3d.h"
 
-namespace nearlight::core::gltf {
+namespace nearlight::core {
 namespace {
 
 Vec3d from_eye(Vec3 eye, const Mat4& to_world, Vec3 position) {
@@ -30,6 +30,14 @@ double seen_angle(Vec3d a, Vec3d b, Vec3d c) {
 
 }  // namespace
 
+Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.origin) {
+        const auto& [x, y, z] = *overrides.origin;
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    }
+    return transform_point(scene.camera.to_world, {0, 0, 0});
+}
+
 bool shows_back(const Mesh& mesh, const Mat4& to_world, Vec3 eye) {
     double angle = 0;
     double volume = 0;
@@ -50,4 +58,4 @@ bool shows_back(const Mesh& mesh, const Mat4& to_world, Vec3 eye) {
     return turns > 0.5 || (turns > -0.5 && faces_inwards);
 }
 
-}  // namespace nearlight::core::gltf
+}  // namespace nearlight::core
