@@ -278,5 +278,21 @@ TEST(Obj, CornersDoWithoutNormalsAndCoordinatesThatAreNotThere) {
     expect_near(normal(scene.triangles[1]), {0, 0, 0});
 }
 
+TEST(Obj, CommentsMayStandBehindNamesOfMaterials) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl Red\nKd 1 0 0\nnewmtl Red # 2\nKd 0 1 0\n");
+    const Scene scene = load_obj(files,
+                                 "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Red  # a # b\nf 1 2 3\n"
+                                 "usemtl Red # 2\nf 1 2 3\nusemtl Blue # c\nf 1 2 3\n");
+    const auto color = [&](std::size_t triangle) {
+        return scene.materials[scene.materials[scene.triangles.at(triangle).material].child[0]]
+            .reflectance.value;
+    };
+    expect_near(color(0), {1, 0, 0});
+    expect_near(color(1), {0, 1, 0});
+    EXPECT_EQ(scene.material_names.at(scene.triangles[0].material), "Red");
+    EXPECT_TRUE(has_note(scene, "m.obj:9: material 'Blue # c' is not defined"));
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -229,6 +229,25 @@ std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes)
     return libraries;
 }
 
+const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& libraries, const std::string& name) {
+    const auto found = std::ranges::find_if(
+        libraries, [&](const MaterialLibrary& library) { return library.names.contains(name); });
+    return found == libraries.end() ? nullptr : &*found;
+}
+
+std::string known_name(const std::vector<MaterialLibrary>& libraries, const std::string& name) {
+    if (find_library(libraries, name) == nullptr) {
+        for (std::size_t end = name.rfind(" #"); end != std::string::npos && end > 0;
+             end = name.rfind(" #", end - 1)) {
+            const std::string start = name.substr(0, name.find_last_not_of(" \t", end) + 1);
+            if (find_library(libraries, start) != nullptr) {
+                return start;
+            }
+        }
+    }
+    return name;
+}
+
 void note_unknown_statements(const MaterialLibrary& library, TextLine begin, NoteSink& notes) {
     if (begin.number == 0) {
         return;

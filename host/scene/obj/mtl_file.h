@@ -38,6 +38,13 @@ struct MaterialLibrary {
 /// library, whose name may hold blanks, or several.
 std::vector<MaterialLibrary> read_libraries(const ObjFile& obj, NoteSink& notes);
 
+/// The first library with an entry of that name, or null.
+const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& libraries, const std::string& name);
+
+/// The name of a material without a comment behind it (" #"), if no library has an entry of the whole name
+/// and one has that. Names may have a # in them.
+std::string known_name(const std::vector<MaterialLibrary>& libraries, const std::string& name);
+
 /// Notes each kind of statement that the entry at `begin` has and that is left out although it may change the
 /// look, or that lacks its number. What has a note of its own (displacement, sheen, clear coat, anisotropy,
 /// map_Ns) is not among them.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -360,27 +359,22 @@ TextLine line_of(const std::unordered_map<std::string, TextLine>& lines, const s
     return found == lines.end() ? TextLine{} : found->second;
 }
 
-/// The first library with an entry of that name, or null.
-const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& libraries, const std::string& name) {
-    const auto found = std::find_if(libraries.begin(), libraries.end(), [&](const MaterialLibrary& library) {
-        return library.names.contains(name);
-    });
-    return found == libraries.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::vector<uint> add_obj_materials(Scene& scene, const ObjFile& obj, NoteSink& notes) {
     const std::vector<MaterialLibrary> libraries = read_libraries(obj, notes);
+    std::vector<std::string> names;
     std::vector<const MaterialLibrary*> owners;  // of each material's entry; null if nothing defines it
-    std::transform(obj.materials.begin(), obj.materials.end(), std::back_inserter(owners),
-                   [&](const std::string& name) { return find_library(libraries, name); });
+    for (const std::string& name : obj.materials) {
+        names.push_back(known_name(libraries, name));
+        owners.push_back(find_library(libraries, names.back()));
+    }
     ObjMaterials materials(scene, notes, !obj.mesh.colors.empty());
-    materials.expect(images_of(obj.materials, owners));
+    materials.expect(images_of(names, owners));
     const auto uses = lines_by_value(obj.text, "usemtl");
     std::vector<uint> indices;
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        const std::string& name = obj.materials[i];
+        const std::string& name = names[i];
         if (owners[i] == nullptr && !name.empty()) {
             notes.approximation(obj.mesh.source, line_of(uses, name).number,
                                 "material '" + name + "' is not defined; it is grey");
