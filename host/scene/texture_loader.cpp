@@ -58,7 +58,7 @@ bool TextureLoader::can_read(const ImageSource& image) {
 }
 
 int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file,
-                        int line) {
+                        int line, std::string_view becomes) {
     const auto [entry, is_new] =
         loaded_.try_emplace({image.file.lexically_normal(), image.start(), rule}, -1);
     if (!is_new) {
@@ -68,7 +68,7 @@ int TextureLoader::load(const ImageSource& image, const TexelRule& rule, const s
     try {
         pixels = &reader_.read(image);
     } catch (const Error& error) {
-        note_unreadable_texture(error, file, line, notes_);
+        note_unreadable_texture(error, file, line, notes_, becomes);
         return -1;
     }
     entry->second = add(*pixels, image.file.filename().string(), rule, file, line);
@@ -95,14 +95,13 @@ int TextureLoader::add(const Image& image, const std::string& name, const TexelR
     return static_cast<int>(scene_.images.size() - 1);
 }
 
-void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line,
-                             NoteSink& notes) {
+void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line, NoteSink& notes,
+                             std::string_view becomes) {
     if (error.kind() != ErrorKind::file) {
         throw error;
     }
-    notes.approximation(
-        file, line,
-        std::string("texture is replaced by mid-grey because it cannot be read: ") + error.what());
+    notes.approximation(file, line,
+                        "texture is " + std::string(becomes) + " because it cannot be read: " + error.what());
 }
 
 SceneTexture plain_texture(int image) {

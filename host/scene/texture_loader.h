@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "nearlight/error.h"
 
 namespace nearlight::core {
+
+/// What becomes of textures whose images cannot be read.
+inline constexpr std::string_view kReplacedByGrey = "replaced by mid-grey";
+inline constexpr std::string_view kLeftOut = "left out";
 
 /// Reads each file once for each rule, however many materials use it. Images of 8 bits a channel stay what
 /// they are, others become half floats. Numbers that are not finite count as 0, and negative colours too;
@@ -31,8 +36,10 @@ class TextureLoader {
     /// is not of the kind file.
     bool can_read(const ImageSource& image);
 
-    /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read.
-    int load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file, int line);
+    /// The index into Scene::images, or −1 with a note at file:line if the image cannot be read, which says
+    /// that the texture `becomes` that.
+    int load(const ImageSource& image, const TexelRule& rule, const std::filesystem::path& file, int line,
+             std::string_view becomes = kReplacedByGrey);
 
     /// Adds an image that has no file of its own, and returns its index.
     int add(const Image& image, const std::string& name, const TexelRule& rule,
@@ -47,11 +54,11 @@ class TextureLoader {
     std::map<Key, int> loaded_;
 };
 
-/// Notes at file:line that a texture is mid-grey because `error` kept its image from being read. Throws the
-/// error on unless it is that of a broken file: any other cause (a missing image module, memory) would make a
-/// wrong picture of every scene.
-void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line,
-                             NoteSink& notes);
+/// Notes at file:line that a texture `becomes` something because `error` kept its image from being read.
+/// Throws the error on unless it is that of a broken file: any other cause (a missing image module, memory)
+/// would make a wrong picture of every scene.
+void note_unreadable_texture(const Error& error, const std::filesystem::path& file, int line, NoteSink& notes,
+                             std::string_view becomes = kReplacedByGrey);
 /// A bitmap texture of an image in Scene::images, without a placement of its own: s = u, t = v.
 SceneTexture plain_texture(int image);
 /// A texture of the vertices' own colours.

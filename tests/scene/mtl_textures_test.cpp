@@ -191,5 +191,19 @@ TEST_F(ObjTextures, MapsOfNormalsCountAndHeightsAreLeftOut) {
     EXPECT_TRUE(has_note(scene_, "bump maps of OBJ materials are left out"));
 }
 
+TEST(MtlTexturesThatAreGone, NotesSayWhatBecomesOfThem) {
+    const SceneFiles files;
+    const auto says = [&](const std::string& line, const std::string& what) {
+        files.write("m.mtl", "newmtl m\nillum 2\n" + line + " gone.png\n");
+        return has_note(load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"),
+                        "m.mtl:3: texture is " + what + " because it cannot be read");
+    };
+    for (const char* line : {"map_d", "map_Ke", "norm", "map_Bump", "map_Pr"}) {
+        EXPECT_TRUE(says(line, "left out")) << line;
+    }
+    EXPECT_TRUE(says("map_Kd", "replaced by mid-grey"));
+    EXPECT_TRUE(says("map_Ks", "replaced by mid-grey"));
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -79,7 +79,7 @@ TEST(Obj, HighlightsAreRoughPlastic) {
     Scene scene;
     EXPECT_EQ(only_material(files, "Ks 1 1 1\nNs -5\nmap_Ks gone.png\nmap_Ns gone.png\n", &scene).model,
               NEARLIGHT_BSDF_PLASTIC);
-    EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "m.mtl:4: texture is left out"));
     EXPECT_TRUE(has_note(scene, "map_Ns"));
 }
 

@@ -244,7 +244,7 @@ TEST(Obj, AByteOrderMarkIsNoText) {
     const Scene scene = load_obj(files, text);
     const Material& side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
-    EXPECT_TRUE(has_note(scene, "m.mtl:3: texture is replaced"));
+    EXPECT_TRUE(has_note(scene, "m.mtl:3: texture is left out"));
     EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text + "f 1 2 4\n"); }), "m.obj:7: "));
     files.write("m.mtl", mark + "# Blender 4.0.2 MTL File: 'a.blend'\nnewmtl m\nKs 0.5 0.5 0.5\nillum 2\n");
     const Scene blenders = load_obj(files, text);

@@ -35,8 +35,13 @@ int MtlTextures::load(const MaterialLibrary& library, TextLine begin, const Text
     }
     const int found = find_in_block(library.text, begin, "newmtl", texture.keyword, texture.name);
     const int line = found > 0 ? found : begin.number;
-    const int image =
-        images_.load({.file = find_moved_file(library.file, texture.name)}, rule, library.file, line);
+    // Only colours of reflected light become grey; elsewhere what stands beside the texture counts alone.
+    const std::string_view keyword = texture.keyword;
+    const bool becomes_grey =
+        keyword == "map_Kd" ||
+        (keyword == "map_Ks" && find_in_block(library.text, begin, "newmtl", "Ks", "") == 0);
+    const int image = images_.load({.file = find_moved_file(library.file, texture.name)}, rule, library.file,
+                                   line, becomes_grey ? kReplacedByGrey : kLeftOut);
     if (image < 0) {
         return -1;
     }
