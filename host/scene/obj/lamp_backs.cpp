@@ -104,6 +104,9 @@ void add_lamp_backs(Scene& scene, const Mesh& mesh, const std::vector<uint>& mat
             shining.push_back(triangle);
         }
     }
+    if (shining.empty()) {
+        return;
+    }
     std::vector<uint> turned;
     for (const std::vector<uint>& list : connected_parts(mesh, shining)) {
         const Mesh part = part_of(mesh, list);
