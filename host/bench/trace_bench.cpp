@@ -17,8 +17,10 @@
 namespace nearlight::core {
 namespace {
 
-/// Maximum relative difference between the distances of what counts as the same hit.
+/// Maximum difference between the distances of what counts as the same hit: as a part of the distance, and of
+/// the scene's extent, which is what rounding of its coordinates makes.
 constexpr float kSameHit = 1e-4f;
+constexpr float kRounding = 1e-6f;
 /// Maximum fraction of rays that may differ, because both answers are right for rays that graze an edge.
 constexpr double kMaxDiffering = 1e-5;
 
@@ -29,14 +31,15 @@ struct RayContestant {
     std::function<Seconds(std::vector<float>&)> trace;
 };
 
-bool same_hit(float a, float b) {
-    return std::isinf(a) || std::isinf(b) ? a == b : std::abs(a - b) <= kSameHit * std::max(a, b);
+bool same_hit(float a, float b, float extent) {
+    return std::isinf(a) || std::isinf(b) ? a == b
+                                          : std::abs(a - b) <= kSameHit * std::max(a, b) + kRounding * extent;
 }
 
-std::size_t count_differing(std::span<const float> distances, std::span<const float> truth) {
+std::size_t count_differing(std::span<const float> distances, std::span<const float> truth, float extent) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
-        count += same_hit(distances[i], truth[i]) ? 0 : 1;
+        count += same_hit(distances[i], truth[i], extent) ? 0 : 1;
     }
     return count;
 }
@@ -77,7 +80,7 @@ std::vector<RayContestant> embrees(const EmbreeRays& embree, std::span<const Ray
 /// Runs the contestants in turn, and returns the seconds of each contestant's repeats. An additional first
 /// round warms up and is not counted. Answers are compared after the last round.
 std::vector<std::vector<Seconds>> race(const std::vector<RayContestant>& contestants, int repeats,
-                                       RaySetResult& result) {
+                                       float extent, RaySetResult& result) {
     std::vector<std::vector<float>> distances(contestants.size());
     std::vector<std::vector<Seconds>> runs(contestants.size());
     for (int repeat = -1; repeat < repeats; ++repeat) {
@@ -93,13 +96,13 @@ std::vector<std::vector<Seconds>> race(const std::vector<RayContestant>& contest
         std::ranges::count_if(truth, [](float distance) { return std::isfinite(distance); }));
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         result.tracers.push_back(
-            {contestants[i].name, medians(runs[i]), count_differing(distances[i], truth)});
+            {contestants[i].name, medians(runs[i]), count_differing(distances[i], truth, extent)});
     }
     return runs;
 }
 
 RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::string& name,
-                       std::span<const RayQuery> rays, const TraceBenchConfig& config) {
+                       std::span<const RayQuery> rays, float extent, const TraceBenchConfig& config) {
     const Buffer<RayQuery> on_device(*own.device, rays);
     Buffer<RayHit> hits(*own.device, rays.size());
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -107,7 +110,7 @@ RaySetResult bench_set(OurTracer& own, const EmbreeRays& embree, const std::stri
     std::ranges::move(embrees(embree, rays, config.threads > 0 ? config.threads : cores),
                       std::back_inserter(contestants));
     RaySetResult result{.name = name, .rays = rays.size(), .hits = 0, .tracers = {}, .best = {}};
-    const std::vector<std::vector<Seconds>> runs = race(contestants, config.repeats, result);
+    const std::vector<std::vector<Seconds>> runs = race(contestants, config.repeats, extent, result);
     const auto max_differing = std::max(1.0, kMaxDiffering * static_cast<double>(rays.size()));
     const auto is_right = [&](const RayTracerFigures& tracer) {
         return static_cast<double>(tracer.differing) <= max_differing;
@@ -134,8 +137,9 @@ TraceBenchResult bench_trace(Device& device, const Scene& scene, const TraceBenc
     const std::vector<uint> ids = distinct_triangles(bvh);
     OurTracer own(device, bvh);
     const EmbreeRays embree(scene, ids);
+    const float extent = max_component(bounds(scene).size());
     const auto bench = [&](const std::string& name, const std::vector<RayQuery>& rays) {
-        return bench_set(own, embree, name, rays, config);
+        return bench_set(own, embree, name, rays, extent, config);
     };
     return {.device = device.name(),
             .triangles = ids.size(),
