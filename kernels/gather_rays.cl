@@ -35,11 +35,11 @@ static inline float segment_transmission(const global float* curves, const globa
 static inline float segment_weight(const GatherParams* params, const global float* curves,
                                    const global Vpl* vpl, float3 normal, float3 mesh_normal, uint curve,
                                    float3 segment) {
-    float weight = params->has_curves ? segment_transmission(curves, vpl, normal, curve, segment) : 1.0f;
-    if (params->has_maps && dot(mesh_normal, mesh_normal) > 0.0f) {
-        weight *= map_factor_of(normal, mesh_normal, -normalize(segment));
-    }
-    return weight;
+    const float transmitted =
+        params->has_curves ? segment_transmission(curves, vpl, normal, curve, segment) : 1.0f;
+    const float unshadowed =
+        params->has_maps ? unshadowed_part(normal, mesh_normal, -normalize(segment)) : 1.0f;
+    return transmitted * unshadowed;
 }
 
 /// The geometry term of a VPL and a receiver, or 0 if the pair is left out whatever stands between: because

@@ -185,12 +185,10 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
     const uint lane = index % NEARLIGHT_PACKET_SIZE;
     const uint slots_per_packet = rays_per_receiver * NEARLIGHT_PACKET_SIZE;
     const uint first_slot = index / NEARLIGHT_PACKET_SIZE * slots_per_packet;
-    const OrientedPoint receiver =
-        point_of_receiver(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
-    const uint curve = receiver_curve(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
-    const float3 mesh_normal =
-        receiver_mesh_normal(receivers + first_packet + index / NEARLIGHT_PACKET_SIZE, lane);
-    const bool is_mapped_here = dot(mesh_normal, mesh_normal) > 0.0f;
+    const uint packet = first_packet + index / NEARLIGHT_PACKET_SIZE;
+    const OrientedPoint receiver = point_of_receiver(receivers + packet, lane);
+    const float3 mesh_normal = receiver_mesh_normal(receivers + packet, lane);
+    const uint curve = receiver_curve(receivers + packet, lane);
     float3 sum = (float3)(0.0f);
     for (uint slot = first_slot; slot < first_slot + slots_per_packet; ++slot) {
         if (flags[slot] == 0 || (seen_by[slot] >> lane & 1) == 0) {
@@ -208,10 +206,9 @@ kernel void local_light_gather(SCENE_PARAMETERS, const global ReceiverPacket* re
         const float transmission =
             diffuse_transmission(&scene, vpl_curve(lights + slot), cos_seen) *
             diffuse_transmission(&scene, curve, -dot(receiver.normal, between) * inverse);
-        const float map =
-            is_mapped_here ? map_factor_of(receiver.normal, mesh_normal, -between * inverse) : 1.0f;
-        sum += load3(lights[slot].power) *
-               (M_1_PI_F * part * transmission * map * local_geometry(&scene, &receiver, &light, radius));
+        const float unshadowed = unshadowed_part(receiver.normal, mesh_normal, -between * inverse);
+        const float geometry = local_geometry(&scene, &receiver, &light, radius);
+        sum += load3(lights[slot].power) * (M_1_PI_F * part * transmission * unshadowed * geometry);
     }
-    add_irradiance_to(irradiance + first_packet + index / NEARLIGHT_PACKET_SIZE, lane, sum);
+    add_irradiance_to(irradiance + packet, lane, sum);
 }

@@ -95,7 +95,7 @@ void gather_incident_light(SamplerStages& stages, const IncidentSources& sources
                                 .packet_count = packet_count,
                                 .clamp_radius = sources.clamp_radius,
                                 .curves = scene.curves_in_use(),
-                                .has_maps = scene.host_info.has_maps != 0},
+                                .has_maps = scene.has_maps()},
                                gathered);
         stages.vpl_light.add(gathered.light, packet_count, irradiance);
     }

@@ -166,6 +166,14 @@ void scale_light(Scene& scene, float scale) {
 
 }  // namespace
 
+Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.origin) {
+        const auto& [x, y, z] = *overrides.origin;
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    }
+    return transform_point(scene.camera.to_world, {0, 0, 0});
+}
+
 SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverrides& overrides) {
     if (overrides.fov_degrees) {  // that of the picture, whatever part of the film it was
         camera = with_field_of_view(camera, *overrides.fov_degrees);

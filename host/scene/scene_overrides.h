@@ -42,6 +42,9 @@ struct SceneOverrides {
     [[nodiscard]] bool bring_light() const { return !environment.empty() || sun.has_value(); }
 };
 
+/// Where the camera of the scene stands, or where the caller places it.
+Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides);
+
 /// A camera of the file's as they leave it; `scene` is what it may look at the middle of.
 SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverrides& overrides);
 

@@ -30,14 +30,6 @@ double seen_angle(Vec3d a, Vec3d b, Vec3d c) {
 
 }  // namespace
 
-Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides) {
-    if (overrides.origin) {
-        const auto& [x, y, z] = *overrides.origin;
-        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-    }
-    return transform_point(scene.camera.to_world, {0, 0, 0});
-}
-
 bool shows_back(const Mesh& mesh, const Mat4& to_world, Vec3 eye) {
     double angle = 0;
     double volume = 0;

@@ -174,7 +174,7 @@ bool BandRenderer::gather_vpls(const CameraBatch& batch, const GatherProgress& p
                                     .strata = cut_tree_ ? nullptr : &strata,
                                     .selection = selection ? &*selection : nullptr,
                                     .curves = scene_.curves_in_use(),
-                                    .has_maps = scene_.host_info.has_maps != 0},
+                                    .has_maps = scene_.has_maps()},
                                    buffers_.gathered, progress);
 }
 

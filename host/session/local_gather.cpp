@@ -32,7 +32,7 @@ bool LocalGather::run(Gatherer& gatherer, const DeviceScene& scene, const Buffer
                                                .clamp_radius = group.radius,
                                                .strata = &strata,
                                                .curves = scene.curves_in_use(),
-                                               .has_maps = scene.host_info.has_maps != 0},
+                                               .has_maps = scene.has_maps()},
                                               part, of_group);
         if (!finished) {
             return false;

@@ -92,7 +92,7 @@ PilotLight light_of(const BudgetPilot& pilot, float radius) {
                                        .clamp_radius = radius,
                                        .group_size = static_cast<uint>(pilot.vpls.count()),
                                        .curves = pilot.scene.curves_in_use(),
-                                       .has_maps = pilot.scene.host_info.has_maps != 0},
+                                       .has_maps = pilot.scene.has_maps()},
                                       sums);
     light.vpls = sums.groups.download();
     light.vpl_squares = sums.squares.download();

@@ -37,8 +37,8 @@ struct CameraBatch {
     /// Receivers of less weight than this are absent, and so are those behind mirrors or glass to which
     /// max_depth leaves at most two edges; rays of their own bring their light. 0: none are.
     float min_weight = 0.0f;
-    /// Whether a pixel's only sample lies anywhere in the reach of its filter (GatherSettings), and not in the
-    /// middle.
+    /// Whether a pixel's only sample lies anywhere in the reach of its filter (GatherSettings), and not in
+    /// the middle.
     bool spread_single_samples = false;
 };
 

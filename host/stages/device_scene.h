@@ -54,13 +54,14 @@ struct DeviceScene {
     // The host needs these without asking the device.
     SceneInfo host_info{};
     bool has_rough_gloss = false;  ///< some material spreads light by gloss
-    bool has_mirrors = false;    ///< some material is a smooth mirror or the boundary of a glass body
-    bool divides_paths = false;  ///< some material (a coat or glass) divides camera paths in two
-    float mean_albedo = 0.5f;    ///< luminance of what surfaces reflect or let through, averaged over area
-    float total_power = 0.0f;    ///< luminance of the emitted flux of all lights, W
-    double total_area = 0.0;     ///< area of all triangles, m²
+    bool has_mirrors = false;      ///< some material is a smooth mirror or the boundary of a glass body
+    bool divides_paths = false;    ///< some material (a coat or glass) divides camera paths in two
+    float mean_albedo = 0.5f;      ///< luminance of what surfaces reflect or let through, averaged over area
+    float total_power = 0.0f;      ///< luminance of the emitted flux of all lights, W
+    double total_area = 0.0;       ///< area of all triangles, m²
 
     [[nodiscard]] bool has_sky() const { return host_info.has_sky != 0; }
+    [[nodiscard]] bool has_maps() const { return host_info.has_maps != 0; }
     [[nodiscard]] bool has_veils() const { return host_info.veils != NEARLIGHT_VEILS_NONE; }
 
     /// The transmission curves for a gather; null where all of them are 1.

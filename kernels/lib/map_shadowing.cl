@@ -17,8 +17,12 @@ static inline float map_shadowing(float tilt2, float cosine) {
 }
 
 /// The part of light along the unit vector `direction`, towards the light, that reaches a surface whose
-/// normal a map has tilted from `mesh_n` to `n`: none from behind the mesh.
-static inline float map_factor_of(float3 n, float3 mesh_n, float3 direction) {
+/// normal a map has tilted from `mesh_n` to `n`: none from behind the mesh, and all where `mesh_n` is zero,
+/// because there is no map.
+static inline float unshadowed_part(float3 n, float3 mesh_n, float3 direction) {
+    if (!(dot(mesh_n, mesh_n) > 0.0f)) {
+        return 1.0f;
+    }
     const float cosine = dot(direction, mesh_n);
     return cosine > 0.0f ? map_shadowing(map_tilt(dot(n, mesh_n)), cosine) : 0.0f;
 }

@@ -23,14 +23,10 @@ static inline ReceiverPoint receiver_of(float3 x, const SurfaceBsdf* surface) {
     return at;
 }
 
-static inline bool is_mapped(const ReceiverPoint* at) {
-    return dot(at->mesh_n, at->mesh_n) > 0.0f;
-}
-
 /// The part of light along `direction` (towards the light, and above the receiver's own horizon) that its map
 /// lets through.
 static inline float receiver_map_factor(const ReceiverPoint* at, float3 direction) {
-    return is_mapped(at) ? map_factor_of(at->n, at->mesh_n, direction) : 1.0f;
+    return unshadowed_part(at->n, at->mesh_n, direction);
 }
 
 /// Irradiance (W/m²) from two kinds of paths.

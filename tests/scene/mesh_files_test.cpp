@@ -284,10 +284,7 @@ TEST(Obj, CommentsMayStandBehindNamesOfMaterials) {
     const Scene scene = load_obj(files,
                                  "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Red  # a # b\nf 1 2 3\n"
                                  "usemtl Red # 2\nf 1 2 3\nusemtl Blue # c\nf 1 2 3\n");
-    const auto color = [&](std::size_t triangle) {
-        return scene.materials[scene.materials[scene.triangles.at(triangle).material].child[0]]
-            .reflectance.value;
-    };
+    const auto color = [&](std::size_t triangle) { return front_of(scene, triangle).reflectance.value; };
     expect_near(color(0), {1, 0, 0});
     expect_near(color(1), {0, 1, 0});
     EXPECT_EQ(scene.material_names.at(scene.triangles[0].material), "Red");

@@ -164,7 +164,7 @@ TEST(Obj, LibrariesMayBeNamedAsOnAnotherComputer) {
         const Scene scene =
             load_obj(files, "mtllib " + libraries + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\n");
         EXPECT_FALSE(has_note(scene, "cannot be read")) << libraries;
-        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]].reflectance.value.x;
+        return front_of(scene, 0).reflectance.value.x;
     };
     EXPECT_FLOAT_EQ(reflectance("C:\\My models\\my b.MTL"), 0.2f);
     EXPECT_FLOAT_EQ(reflectance("models/B.mtl"), 0.3f);

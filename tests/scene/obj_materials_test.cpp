@@ -60,7 +60,7 @@ Material only_material(const SceneFiles& files, const std::string& entry, Scene*
     if (scene != nullptr) {
         *scene = loaded;
     }
-    return loaded.materials[loaded.materials[loaded.triangles.at(0).material].child[0]];
+    return front_of(loaded, 0);
 }
 
 TEST(Obj, HighlightsAreRoughPlastic) {
@@ -121,7 +121,7 @@ TEST(Obj, EntriesWithoutAColorLeaveThoseOfVertices) {
     files.write("m.mtl", "newmtl m\nNs 10\n");
     const Scene scene =
         load_obj(files, "mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nusemtl m\nf 1 2 3\n");
-    const Material& surface = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    const Material& surface = front_of(scene, 0);
     expect_near(surface.reflectance.value, {1, 1, 1});
     EXPECT_GE(surface.reflectance.texture, 0);
     EXPECT_FALSE(has_note(scene, "without any colour"));
@@ -184,9 +184,7 @@ TEST(Obj, SeveralLibrariesOnOneLine) {
     const Scene scene = load_obj(files,
                                  "mtllib a.mtl b.mtl none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
                                  "usemtl b\nf 1 2 3\n");
-    const auto reflectance = [&](std::size_t i) {
-        return scene.materials[scene.materials[scene.triangles.at(i).material].child[0]].reflectance.value.x;
-    };
+    const auto reflectance = [&](std::size_t i) { return front_of(scene, i).reflectance.value.x; };
     EXPECT_FLOAT_EQ(reflectance(0), 0.1f);
     EXPECT_FLOAT_EQ(reflectance(1), 0.2f);
     EXPECT_TRUE(has_note(scene, "m.obj:1: material library 'none.mtl' cannot be read"));
@@ -255,7 +253,7 @@ TEST(Obj, BlendersMetalAndPlastic) {
     const auto material = [&](const std::string& entry) {
         files.write("b.mtl", "# Blender 4.0.2 MTL File: 'a.blend'\n\nnewmtl m\n" + entry);
         const Scene scene = load_obj(files, "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+        return front_of(scene, 0);
     };
     const Material metal = material("Ns 250\nKa 0.9 0.9 0.9\nKd 1 0.77 0.34\nKs 0.5 0.5 0.5\nillum 3\n");
     EXPECT_EQ(metal.model, NEARLIGHT_BSDF_PRINCIPLED);
@@ -289,7 +287,7 @@ TEST(Obj, OlderBlendersRoughness) {
         const Scene scene = load_obj(files, "# Blender v" + version +
                                                 " OBJ File: 'a.blend'\nmtllib b.mtl\nv 0 0 0\nv 1 0 0\n"
                                                 "v 0 1 0\nusemtl m\nf 1 2 3\n");
-        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+        return front_of(scene, 0);
     };
     for (const char* version : {"2.80 (sub 75)", "2.93.1"}) {
         EXPECT_EQ(material(version).model, NEARLIGHT_BSDF_PRINCIPLED) << version;

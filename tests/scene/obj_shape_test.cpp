@@ -136,9 +136,7 @@ TEST(Obj, ShapesOfOldMitsubaMayBeOneMeshOfAFile) {
                                                                  std::string(index) + "'/>") +
                                                        "</scene>"));
     };
-    const auto red = [](const Scene& scene) {
-        return scene.materials[scene.materials[scene.triangles.at(0).material].child[0]].reflectance.value.x;
-    };
+    const auto red = [](const Scene& scene) { return front_of(scene, 0).reflectance.value.x; };
     EXPECT_EQ(mesh("0").triangles.size(), 2u);
     EXPECT_FLOAT_EQ(red(mesh("0")), 0.1f);
     const Scene second = mesh("1");
@@ -230,7 +228,7 @@ TEST(Obj, LinesMayEndWithCarriageReturns) {
     const Scene scene = load_obj(
         files, "mtllib r.mtl\rv 0 0 0 1 0 0\rv 1 0 0 0 1 0\rv 0 1 0 0 0 1\rs 0\rusemtl a\rf 1 2 3\r");
     EXPECT_EQ(scene.vertex_colors.size(), 3u);
-    const Material side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    const Material side = front_of(scene, 0);
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
     expect_near(corner_normals(scene, 0)[0], {0, 0, 0});
 }
@@ -242,14 +240,13 @@ TEST(Obj, AByteOrderMarkIsNoText) {
     files.write("m.mtl", mark + "newmtl m\nKd 0.1 0.2 0.3\nmap_Ke no.png\nillum 1\n");
     const std::string text = mark + "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
     const Scene scene = load_obj(files, text);
-    const Material& side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    const Material& side = front_of(scene, 0);
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
     EXPECT_TRUE(has_note(scene, "m.mtl:3: texture is left out"));
     EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text + "f 1 2 4\n"); }), "m.obj:7: "));
     files.write("m.mtl", mark + "# Blender 4.0.2 MTL File: 'a.blend'\nnewmtl m\nKs 0.5 0.5 0.5\nillum 2\n");
     const Scene blenders = load_obj(files, text);
-    EXPECT_EQ(blenders.materials[blenders.materials[blenders.triangles.at(0).material].child[0]].model,
-              NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_EQ(front_of(blenders, 0).model, NEARLIGHT_BSDF_PRINCIPLED);
 }
 
 TEST(Obj, LinesMayContinue) {
@@ -281,7 +278,7 @@ TEST(Obj, CommentsDoNotContinue) {
                                  "# File: C:\\models\\\nmtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf "
                                  "1 \\\n2 3\n#\\\nf 1 3 \\\n2\n");
     EXPECT_EQ(scene.triangles.size(), 2u);
-    const Material side = scene.materials[scene.materials[scene.triangles.at(0).material].child[0]];
+    const Material side = front_of(scene, 0);
     expect_near(side.reflectance.value, {0.1f, 0.2f, 0.3f});
 }
 
@@ -318,7 +315,7 @@ TEST(Obj, ColoursOfVerticesAreTheSurfaces) {
     ASSERT_EQ(scene.vertex_colors.size(), 3u);
     expect_near(scene.vertex_colors[0], {1, 0, 0});
     EXPECT_NEAR(scene.vertex_colors[2].x, 0.2140f, 1e-4f) << "they are sRGB";
-    const Material side = scene.materials[scene.materials[scene.triangles[0].material].child[0]];
+    const Material side = front_of(scene, 0);
     ASSERT_GE(side.reflectance.texture, 0);
     EXPECT_EQ(scene.textures[static_cast<std::size_t>(side.reflectance.texture)].parameters.kind,
               NEARLIGHT_TEXTURE_VERTEX_COLOR);

@@ -10,4 +10,9 @@ inline Scene load_obj(const SceneFiles& files, const std::string& text) {
     return load_scene(files.write("m.obj", text));
 }
 
+/// The material of the front of a triangle, whose own has two sides.
+inline const Material& front_of(const Scene& scene, std::size_t triangle) {
+    return scene.materials[scene.materials[scene.triangles.at(triangle).material].child[0]];
+}
+
 }  // namespace nearlight::core::test

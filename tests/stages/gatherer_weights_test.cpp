@@ -121,34 +121,41 @@ double map_part(Vec3 normal, Vec3 mesh_normal, Vec3 to_light) {
     return 2 / (1 + std::sqrt(1 + alpha2 * tan_light * tan_light));
 }
 
-class GathererWeightsTest : public DeviceTest {};
+class GathererWeightsTest : public DeviceTest {
+  public:
+    /// Calls check(gatherer, a gather's input and sums, what the plain gather sums up) for each variant.
+    template <typename Check>
+    static void on_each_variant(Device& device, const GatherCase& data, const Check& check) {
+        for (const Variant& variant : variants()) {
+            SCOPED_TRACE(variant.name);
+            Gatherer gatherer(device, variant.config);
+            Uploaded uploaded(device, data);
+            check(gatherer, uploaded, uploaded.gather(gatherer));
+        }
+    }
+};
 
 TEST_F(GathererWeightsTest, CurvesWeighBothEnds) {
     GatherCase data = room_of_boxes(40, 130, 6, 8);
     choose_curves(data);
     const std::vector<float> curves = bent_curves();
+    const auto weight = [&](const Vpl& vpl, const ReceiverPoint& receiver, const ReceiverSurface& surface,
+                            Vec3 direction) {
+        return curve_at(curves, vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT, dot(seen_normal(vpl), direction)) *
+               curve_at(curves, surface.curve, -dot(receiver.normal, direction));
+    };
     on_each_device([&](Device& device) {
         const Buffer<float> rows(device, curves);
-        for (const Variant& variant : variants()) {
-            SCOPED_TRACE(variant.name);
-            Gatherer gatherer(device, variant.config);
-            Uploaded uploaded(device, data);
-            const std::vector<IrradiancePacket> plain = uploaded.gather(gatherer);
+        on_each_variant(device, data, [&](Gatherer& gatherer, Uploaded& uploaded, const auto& plain) {
             GatherInput<Vpl> input = uploaded.input();
             input.curves = &rows;
             const std::vector<GatherPair> pairs = gatherer.gather_recorded(input, uploaded.sums());
             const std::vector<IrradiancePacket> recorded = uploaded.sums().light.download();
-            const auto weight = [&](const Vpl& vpl, const ReceiverPoint& receiver,
-                                    const ReceiverSurface& surface, Vec3 direction) {
-                return curve_at(curves, vpl.flags >> NEARLIGHT_VPL_CURVE_SHIFT,
-                                dot(seen_normal(vpl), direction)) *
-                       curve_at(curves, surface.curve, -dot(receiver.normal, direction));
-            };
             expect_close(recorded, weighted_sums(data, pairs, weight));
             ASSERT_TRUE(gatherer.gather(input, uploaded.sums()));
             expect_close(uploaded.sums().light.download(), recorded);
             EXPECT_FALSE(same_bits(plain, recorded));
-        }
+        });
     });
 }
 
@@ -160,11 +167,7 @@ TEST_F(GathererWeightsTest, MapsShadowReceivers) {
         return map_part(receiver.normal, surface.mesh_normal, -direction);
     };
     on_each_device([&](Device& device) {
-        for (const Variant& variant : variants()) {
-            SCOPED_TRACE(variant.name);
-            Gatherer gatherer(device, variant.config);
-            Uploaded uploaded(device, data);
-            const std::vector<IrradiancePacket> plain = uploaded.gather(gatherer);
+        on_each_variant(device, data, [&](Gatherer& gatherer, Uploaded& uploaded, const auto& plain) {
             GatherInput<Vpl> input = uploaded.input();
             input.has_maps = true;
             const std::vector<GatherPair> pairs = gatherer.gather_recorded(input, uploaded.sums());
@@ -172,7 +175,7 @@ TEST_F(GathererWeightsTest, MapsShadowReceivers) {
             expect_close(recorded, weighted_sums(data, pairs, weight));
             EXPECT_FALSE(same_bits(plain, recorded));
             EXPECT_TRUE(same_bits({plain.front()}, {recorded.front()})) << "a packet without maps";
-        }
+        });
     });
 }
 
@@ -181,16 +184,12 @@ TEST_F(GathererWeightsTest, RowZeroDoesNotChangeABit) {
     const GatherCase data = room_of_boxes(40, 130, 3, 9);
     on_each_device([&](Device& device) {
         const Buffer<float> rows(device, bent_curves());
-        for (const Variant& variant : variants()) {
-            SCOPED_TRACE(variant.name);
-            Gatherer gatherer(device, variant.config);
-            Uploaded uploaded(device, data);
-            const std::vector<IrradiancePacket> plain = uploaded.gather(gatherer);
+        on_each_variant(device, data, [&](Gatherer& gatherer, Uploaded& uploaded, const auto& plain) {
             GatherInput<Vpl> input = uploaded.input();
             input.curves = &rows;
             ASSERT_TRUE(gatherer.gather(input, uploaded.sums()));
             EXPECT_TRUE(same_bits(uploaded.sums().light.download(), plain));
-        }
+        });
     });
 }
 

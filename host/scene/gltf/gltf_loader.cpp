@@ -8,7 +8,7 @@
 #include "host/scene/gltf/meshes.h"
 #include "host/scene/gltf/nodes.h"
 #include "host/scene/model_scene.h"
-#include "host/scene/seen_side.h"
+#include "host/scene/scene_overrides.h"
 
 namespace nearlight::core {
 namespace {

@@ -8,7 +8,7 @@
 #include "host/scene/obj/obj_file.h"
 #include "host/scene/obj/obj_materials.h"
 #include "host/scene/polygon.h"
-#include "host/scene/seen_side.h"
+#include "host/scene/scene_overrides.h"
 
 namespace nearlight::core {
 
