@@ -91,7 +91,7 @@ BvhHit closest_hit(const Bvh& bvh, const RayQuery& ray) {
     return closest_hit(bvh, ray.origin, ray.direction, ray.t_min, ray.t_max);
 }
 
-RayQuery start_walk(const Scene& scene, const PointMaker& points, const Emitter& emitter, Pcg32& random) {
+RayQuery start_walk(const PointMaker& points, const Emitter& emitter, Pcg32& random) {
     if (is_area_light(emitter)) {
         const uint offset = emitter.triangle_count > 1 ? random.next() % emitter.triangle_count : 0;
         const ReceiverPoint point = points.on_front(emitter.triangle + offset, random);
@@ -152,7 +152,7 @@ void follow_walks(const Scene& scene, const Bvh& bvh, std::size_t max_walks, Pcg
     const std::vector<float> cdf = cumulative_distribution(weights);
     for (std::size_t walk = 0; walk < max_walks; ++walk) {
         const Emitter& emitter = emitters[select(cdf, random.uniform())];
-        if (!follow_walk(scene, bvh, points, start_walk(scene, points, emitter, random), random, visit)) {
+        if (!follow_walk(scene, bvh, points, start_walk(points, emitter, random), random, visit)) {
             return;
         }
     }
