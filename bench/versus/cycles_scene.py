@@ -49,6 +49,7 @@ class Nodes:
 
     def __init__(self, tree, archive):
         self._tree, self._archive = tree, archive
+        self._normal = None      # the output of the normal map that what is added lies under
         tree.nodes.clear()
 
     def add(self, kind, inputs=None, **properties):
@@ -74,22 +75,46 @@ class Nodes:
         return self.add('ShaderNodeTexImage', {'Vector': place}, image=self._archive.image(color['texture']),
                         interpolation='Linear' if color['is_smooth'] else 'Closest').outputs['Color']
 
+    def number(self, color):
+        """A number, or the output of a grey texture."""
+        return color[0] if isinstance(color, list) else self.color(color)
+
+    def shader(self, kind, inputs, **properties):
+        """The output of a shader that the normal map, if there is one, turns."""
+        turned = {} if self._normal is None else {'Normal': self._normal}
+        return self.add(kind, inputs | turned, **properties).outputs[0]
+
     def surface(self, material):
         """The output of a material's shader."""
         kind = material['kind']
+        if kind == 'normal_map':
+            return self._mapped(material)
+        if kind == 'principled':
+            return self.shader('ShaderNodeBsdfPrincipled', {
+                'Base Color': self.color(material['color']), 'Metallic': self.number(material['metallic']),
+                'Roughness': self.number(material['roughness']), 'IOR': material['eta']}, distribution='GGX')
         if kind == 'diffuse':
-            return self.add('ShaderNodeBsdfDiffuse', {'Color': self.color(material['reflectance'])}).outputs[0]
+            return self.shader('ShaderNodeBsdfDiffuse', {'Color': self.color(material['reflectance'])})
         if kind == 'plastic':
             return self._plastic(material)
         if kind == 'conductor':
             return self._conductor(material)
         if kind == 'dielectric':
-            return self.add('ShaderNodeBsdfGlass', {'IOR': material['eta'], 'Roughness': 0.0}).outputs[0]
+            return self.shader('ShaderNodeBsdfGlass', {'IOR': material['eta'], 'Roughness': 0.0})
         if kind == 'mask':
             return self.add('ShaderNodeMixShader', {0: self.color(material['opacity']),
                                                     1: self.add('ShaderNodeBsdfTransparent').outputs[0],
                                                     2: self.surface(material['inner'])}).outputs[0]
         raise ValueError(kind)
+
+    def _mapped(self, material):
+        """A surface under a normal map, whose y is against the texture's v: rows of its image go down, and so does v here."""
+        upwards = self.add('ShaderNodeVectorMath', {0: self.color(material['normals']), 1: (1, -1, 1), 2: (0, 1, 0)},
+                           operation='MULTIPLY_ADD').outputs[0]
+        self._normal = self.add('ShaderNodeNormalMap', {'Color': upwards}, space='TANGENT').outputs[0]
+        surface = self.surface(material['inner'])
+        self._normal = None
+        return surface
 
     def _plastic(self, material):
         """A coat over a diffuse base of reflectance R, of which the coat lets through (1 - F) R / (eta^2 (1 - F' R)), with the
@@ -102,20 +127,20 @@ class Nodes:
         left = self.add('ShaderNodeVectorMath', {0: base, 1: (passed - 1,) * 3, 2: (1, 1, 1)}, operation='MULTIPLY_ADD').outputs[0]
         numerator = self.add('ShaderNodeVectorMath', {0: base, 1: (passed,) * 3}, operation='MULTIPLY').outputs[0]
         color = self.add('ShaderNodeVectorMath', {0: numerator, 1: left}, operation='DIVIDE').outputs[0]
-        return self.add('ShaderNodeBsdfPrincipled', {'Base Color': color, 'IOR': eta, 'Roughness': math.sqrt(material['alpha'])},
-                        distribution='GGX').outputs[0]
+        return self.shader('ShaderNodeBsdfPrincipled', {'Base Color': color, 'IOR': eta, 'Roughness': math.sqrt(material['alpha'])},
+                           distribution='GGX')
 
     def _conductor(self, material):
         """With Fresnel's equations where nothing tints them; else with the reflectance at normal incidence in all directions."""
         roughness, distribution = math.sqrt(material['alpha']), material['distribution'].upper()
         if material['tint'] == [1, 1, 1] and max(material['eta']) > 0:
-            return self.add('ShaderNodeBsdfMetallic', {'IOR': material['eta'], 'Extinction': material['k'], 'Roughness': roughness},
-                            fresnel_type='PHYSICAL_CONDUCTOR', distribution=distribution).outputs[0]
+            return self.shader('ShaderNodeBsdfMetallic', {'IOR': material['eta'], 'Extinction': material['k'], 'Roughness': roughness},
+                               fresnel_type='PHYSICAL_CONDUCTOR', distribution=distribution)
         color = material['tint']
         if isinstance(color, list):
             color = [tint * normal_reflectance(eta, k) for tint, eta, k in zip(color, material['eta'], material['k'])]
-        return self.add('ShaderNodeBsdfAnisotropic', {'Color': self.color(color), 'Roughness': roughness},
-                        distribution=distribution).outputs[0]
+        return self.shader('ShaderNodeBsdfAnisotropic', {'Color': self.color(color), 'Roughness': roughness},
+                           distribution=distribution)
 
     def lamp(self, radiance, surface):
         """A surface that shines on the side of its normal."""

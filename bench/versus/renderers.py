@@ -80,6 +80,21 @@ def timed(command, max_seconds):
     return done.stdout, seconds, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def mitsuba_file(path, folder, max_seconds):
+    """A scene as a file that Mitsuba reads: itself, or what gltf_scene.py makes of it in the folder, once."""
+    if not path.endswith('.gltf'):
+        return path
+    converter = os.path.join(HERE, 'gltf_scene.py')
+    digest = hash_of_files([path, converter])
+    digest.update(os.path.abspath(path).encode())
+    name = os.path.splitext(os.path.basename(path))[0]
+    out = os.path.join(folder, f'gltf-{digest.hexdigest()[:16]}', name)
+    file = os.path.join(out, 'scene.xml')
+    if not os.path.exists(file):
+        timed([sys.executable, converter, json.dumps({'scene': path, 'folder': out})], max_seconds)
+    return file
+
+
 class Nearlight:
     """nearlight at its defaults. Its work is passes."""
     label = 'nearlight'

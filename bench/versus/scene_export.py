@@ -80,7 +80,7 @@ class Parameters:
             first, second = (rgb(self.get(f'{name}.color{i}')) for i in (0, 1))
             pixels = numbers([[first, second], [second, first]])
         else:
-            raw = re.search(name + r' = BitmapTexture.*?raw = (\d)', self._text, re.DOTALL)
+            raw = re.search(name + r'(?: =|:) BitmapTexture.*?raw = (\d)', self._text, re.DOTALL)
             pixels = linear(np.array(self.get(name + '.data')), raw is not None and raw.group(1) == '1')
         to_uv = np.array(self.get(name + '.to_uv').matrix, dtype=np.float32).reshape(3, 3)
         return {'texture': self._archive.add(pixels), 'to_uv': to_uv[:2].tolist(), 'is_smooth': not is_checkered}
@@ -93,6 +93,16 @@ def material(mi, bsdf, archive):
     return named_material(text, values, '', archive)
 
 
+def principled(parameters):
+    """Metal, or a base under reflections; colour, metalness and roughness may be textures."""
+    for name in ('anisotropic', 'clearcoat', 'flatness', 'sheen', 'spec_tint', 'spec_trans'):
+        if parameters.color(name) != [0, 0, 0]:
+            raise Unsupported(f'no counterpart of the parameter {name} of a principled BSDF')
+    amplitude = (0.08 * parameters.number('specular')) ** 0.5
+    return {'kind': 'principled', 'color': parameters.color('base_color'), 'metallic': parameters.color('metallic'),
+            'roughness': parameters.color('roughness'), 'eta': (1 + amplitude) / (1 - amplitude)}
+
+
 def named_material(text, values, prefix, archive):
     kind = re.match(r'\w+', text).group()
     parameters = Parameters(values, prefix, text, archive)
@@ -103,6 +113,12 @@ def named_material(text, values, prefix, archive):
         inner = re.search(r'nested_bsdf = ', text)
         return {'kind': 'mask', 'opacity': parameters.color('opacity'),
                 'inner': named_material(text[inner.end():], values, prefix + 'nested_bsdf.', archive)}
+    if kind == 'NormalMap':
+        inner = re.search(r'nested_bsdf = ', text)
+        return {'kind': 'normal_map', 'normals': parameters.color('normalmap'),
+                'inner': named_material(text[inner.end():], values, prefix + 'nested_bsdf.', archive)}
+    if kind == 'Principled':
+        return principled(parameters)
     if kind == 'SmoothDiffuse':
         return {'kind': 'diffuse', 'reflectance': parameters.color('reflectance')}
     if kind in ('SmoothPlastic', 'RoughPlastic'):

@@ -17,7 +17,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 
 def parsed_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split('\n', maxsplit=1)[0])
-    parser.add_argument('scenes', nargs='+', help='Mitsuba XML files')
+    parser.add_argument('scenes', nargs='+', help='Mitsuba XML files, or glTF files, which are converted to such')
     parser.add_argument('--nearlight', default=os.path.join(ROOT, 'build/release/nearlight'), help='the program')
     parser.add_argument('--out', default=os.path.join(ROOT, 'build/versus'), help='folder of all pictures and results; what is '
                         'there is not rendered again')
@@ -48,7 +48,7 @@ def chosen_renderers(arguments):
 
 def run(arguments):
     from race import Race
-    from renderers import RenderFailure, can_denoise
+    from renderers import RenderFailure, can_denoise, mitsuba_file
     import report
     os.makedirs(arguments.out, exist_ok=True)
     nearlight, renderers, notes = chosen_renderers(arguments)
@@ -68,7 +68,8 @@ def run(arguments):
     for path in arguments.scenes:
         print(path, file=sys.stderr)
         try:
-            results.append(race.scene(path, size, lambda line: print('  ' + line, file=sys.stderr, flush=True)))
+            readable = mitsuba_file(path, arguments.out, arguments.limit)
+            results.append(race.scene(readable, size, lambda line: print('  ' + line, file=sys.stderr, flush=True)))
         except RenderFailure as failure:
             failures += 1
             notes.append(f'{path} failed: {failure}')

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of bench/versus, without any renderer."""
 import importlib.util
+import json
 import os
 import sys
 import tempfile
@@ -17,6 +18,7 @@ if importlib.util.find_spec('numpy') is None:
 
 import numpy as np
 
+import gltf_scene
 import measures
 import plots
 import race
@@ -119,9 +121,26 @@ class Export(unittest.TestCase):
             self.assertEqual(texture['to_uv'], [[2, 0, 0], [0, 3, 0]])
             np.testing.assert_allclose(self.archive.arrays[texture['texture']['array']][0, 0], [0, middle, 1], atol=1e-5)
 
+    def test_principled_materials_keep_what_blender_has_too(self):
+        inner = 'nested_bsdf.brdf_0.'
+        none = {f'{inner}{name}.value': 0.0 for name in ('anisotropic', 'clearcoat', 'flatness', 'sheen', 'spec_tint', 'spec_trans')}
+        values = none | {inner + 'base_color.value': [0.1, 0.2, 0.3], inner + 'roughness.value': 0.4, inner + 'metallic.value': 1.0,
+                         inner + 'specular': 0.5, 'normalmap.data': np.full((1, 1, 3), 128, dtype=np.uint8),
+                         'normalmap.to_uv': Transform(np.eye(3))}
+        text = 'NormalMap[\n  nested_bsdf = TwoSided[\n    brdf[0] = Principled BSDF :\n],\n  normalmap = BitmapTexture[\n    raw = 1,\n]]'
+        material = self.material(text, values)
+        self.assertEqual(material['kind'], 'normal_map')
+        normals = self.archive.arrays[material['normals']['texture']['array']]
+        np.testing.assert_allclose(normals, np.full((1, 1, 3), 128 / 255), rtol=1e-6)
+        inside = material['inner']
+        self.assertEqual((inside['kind'], inside['metallic']), ('principled', [1, 1, 1]))
+        self.assertAlmostEqual(inside['eta'], 1.5)
+        with self.assertRaisesRegex(scene_export.Unsupported, 'clearcoat'):
+            self.material(text, values | {inner + 'clearcoat.value': 0.5})
+
     def test_what_has_no_counterpart_is_refused_by_name(self):
-        with self.assertRaisesRegex(scene_export.Unsupported, 'Principled'):
-            self.material('Principled[]', {})
+        with self.assertRaisesRegex(scene_export.Unsupported, 'Hair'):
+            self.material('Hair[]', {})
         with self.assertRaisesRegex(scene_export.Unsupported, 'reflectance'):
             self.material('SmoothDiffuse[]', {})
 
@@ -132,6 +151,62 @@ class Export(unittest.TestCase):
         self.assertTrue((across[:, 2] > 0).all())
         self.assertAlmostEqual(np.linalg.norm(across, axis=1).sum() / 2, 4 * np.pi, delta=0.01)
         np.testing.assert_allclose(corners[0], [5, 0, 0])
+
+
+def triangle_file(folder, **more):
+    """A glTF file of a triangle on a node that mirrors it, with a camera and a light."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float32)
+    with open(os.path.join(folder, 'a b.bin'), 'wb') as out:
+        out.write(corners.tobytes())
+    model = {'asset': {'version': '2.0'}, 'extensionsUsed': ['KHR_lights_punctual'], 'buffers': [{'uri': 'a%20b.bin', 'byteLength': 36}],
+             'bufferViews': [{'buffer': 0, 'byteLength': 36}],
+             'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3'}],
+             'materials': [{'pbrMetallicRoughness': {'baseColorFactor': [0.1, 0.2, 0.3, 1], 'roughnessFactor': 0.5}, 'alphaMode': 'BLEND'}],
+             'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'material': 0}]}],
+             'cameras': [{'type': 'perspective', 'perspective': {'yfov': np.pi / 2, 'aspectRatio': 2}}],
+             'extensions': {'KHR_lights_punctual': {'lights': [{'type': 'point', 'intensity': 683, 'color': [1, 0.5, 0]}]}},
+             'scenes': [{'nodes': [0]}],
+             'nodes': [{'children': [1, 2, 3], 'translation': [10, 0, 0], 'rotation': [0, 0, 0.5 ** 0.5, 0.5 ** 0.5]},
+                       {'mesh': 0, 'scale': [-2, 1, 1]}, {'camera': 0},
+                       {'translation': [1, 0, 0], 'extensions': {'KHR_lights_punctual': {'light': 0}}}]} | more
+    file = os.path.join(folder, 'scene.gltf')
+    with open(file, 'w', encoding='utf-8') as out:
+        json.dump(model, out)
+    return file
+
+
+class FromGltf(unittest.TestCase):
+    def test_meshes_lights_and_cameras_keep_their_places(self):
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
+            scene = gltf_scene.converted(None, triangle_file(folder), folder)
+            with open(os.path.join(folder, scene.find('shape/string').get('value')), 'rb') as ply:
+                body = ply.read().partition(b'end_header\n')[2]
+        corners = np.frombuffer(body, dtype='<f4', count=9).reshape(3, 3)
+        np.testing.assert_allclose(corners, [[10, 0, 0], [10, -2, 0], [9, 0, 0]], atol=1e-6)      # mirrored, turned, moved
+        self.assertEqual(np.frombuffer(body, dtype='<i4', count=3, offset=37).tolist(), [2, 1, 0])  # so the front stays in front
+        position = scene.find('emitter/point')
+        np.testing.assert_allclose([float(position.get(axis)) for axis in 'xyz'], [10, 1, 0], atol=1e-12)
+        self.assertEqual(scene.find('emitter/rgb').get('value'), '1.0 0.5 0.0')
+        sensor = scene.find('sensor')
+        self.assertAlmostEqual(float(sensor.find('float').get('value')), np.degrees(2 * np.arctan(2)))
+        matrix = np.array(sensor.find('transform/matrix').get('value').split(), dtype=float).reshape(4, 4)
+        np.testing.assert_allclose(matrix[:3], [[0, -1, 0, 10], [-1, 0, 0, 0], [0, 0, -1, 0]], atol=1e-12)
+
+    def test_materials_become_principled_behind_their_alpha(self):
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
+            scene = gltf_scene.converted(None, triangle_file(folder), folder)
+        mask = scene.find('shape/bsdf')
+        self.assertEqual((mask.get('type'), mask.find('float').get('value')), ('mask', '1.0'))
+        principled = mask.find('bsdf/bsdf')
+        self.assertEqual({child.get('name'): child.get('value') for child in principled},
+                         {'base_color': '0.1 0.2 0.3', 'roughness': '0.5', 'metallic': '1.0'})
+
+    def test_what_has_no_counterpart_is_refused_by_name(self):
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
+            for more, name in (({'extensionsUsed': ['KHR_materials_sheen']}, 'KHR_materials_sheen'), ({'skins': [{}]}, 'skins'),
+                               ({'extensions': {}, 'nodes': [{'mesh': 0}]}, 'camera and lights')):
+                with self.assertRaisesRegex(gltf_scene.Unsupported, name):
+                    gltf_scene.converted(None, triangle_file(folder, **more), folder)
 
 
 class KeptPictures(unittest.TestCase):
