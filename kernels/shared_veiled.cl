@@ -53,9 +53,9 @@ kernel void shared_veiled_gather(SCENE_PARAMETERS, VEIL_PARAMETERS,
                                  const global float* restrict factors, const global uint* restrict lengths,
                                  const global uint* restrict seen_by,
                                  global IrradiancePacket* restrict irradiance, BUNDLE_LIGHT_PARAMETERS) {
-    const uint index = (uint)get_group_id(0);
     const uint item = (uint)get_local_id(0);
     const uint items = (uint)get_local_size(0);
+    const uint index = (uint)get_group_id(0) + (uint)get_global_offset(0) / items;
     const Bundle bundle = bundle_at(index, packet_count);
     const SceneView scene = SCENE_VIEW;
     const SceneView veils = VEIL_VIEW(scene);

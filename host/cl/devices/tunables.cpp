@@ -18,13 +18,15 @@ constexpr std::array kFields{
     TunableField{"shortest_sort_run", &Tunables::shortest_sort_run, 16, 1u << 20u, false},
     TunableField{"roulette_run", &Tunables::roulette_run, 1, 4096, false},
     TunableField{"launch_bundles", &Tunables::launch_bundles, 1, 1u << 20u, false},
+    TunableField{"launch_items", &Tunables::launch_items, 64, ~0u, false},
     TunableField{"launch_ms", &Tunables::launch_ms, 1, 2000, false},
     TunableField{"batch_receivers", &Tunables::batch_receivers, 1u << 10u, 1u << 24u, false},
 };
 
 /// On CPUs one thread runs a work-group, so work-items are few and long, with several per core to balance the
-/// load. A launch takes more VPLs rather than more bundles, because each bundle costs time to start. GPUs
-/// need enough work-items to fill their lanes, also where an item is a bundle of 256 receivers.
+/// load. A launch takes more VPLs rather than more bundles, because each bundle costs time to start. No
+/// driver of a CPU stops a launch that takes long. GPUs need enough work-items to fill their lanes, also
+/// where an item is a bundle of 256 receivers.
 constexpr Tunables kCpu{.beam_width = 256,
                         .local_size = 8,
                         .run_local_size = 1,
@@ -34,6 +36,7 @@ constexpr Tunables kCpu{.beam_width = 256,
                         .shortest_sort_run = 4096,
                         .roulette_run = 64,
                         .launch_bundles = 256,
+                        .launch_items = ~0u,
                         .launch_ms = 200,
                         .batch_receivers = 1u << 18u};
 constexpr Tunables kGpu{.beam_width = 256,
@@ -45,6 +48,7 @@ constexpr Tunables kGpu{.beam_width = 256,
                         .shortest_sort_run = 256,
                         .roulette_run = 1,
                         .launch_bundles = 4096,
+                        .launch_items = 1u << 16u,
                         .launch_ms = 200,
                         .batch_receivers = 1u << 23u};
 

@@ -21,8 +21,9 @@ struct Tunables {
     std::uint32_t shortest_sort_run;  ///< minimum number of elements in a run that costs a histogram
     std::uint32_t roulette_run;       ///< VPLs per work-item that computes bounds for Russian roulette
     std::uint32_t launch_bundles;     ///< maximum number of bundles (256 receivers) in a launch of a gather
-    std::uint32_t launch_ms;          ///< how long a launch of a gather should take, in milliseconds
-    std::uint32_t batch_receivers;    ///< maximum number of receivers in a batch of camera samples
+    std::uint32_t launch_items;       ///< launches of more independent work-items are divided into parts
+    std::uint32_t launch_ms;  ///< how long a launch of a gather, or a part, should take, in milliseconds
+    std::uint32_t batch_receivers;  ///< maximum number of receivers in a batch of camera samples
 
     bool operator==(const Tunables&) const = default;
 };
