@@ -12,8 +12,8 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
             "--device", choice.device,
             "OpenCL devices, comma-separated: an index, a part of a name, cpu, gpu or all. 0/2 means "
             "both halves of device 0, and 0/2.1 its second half. `render` and `view` divide a picture "
-            "among several devices. The default is $NEARLIGHT_DEVICE, or else the first GPU, or else "
-            "the first device (see `nearlight devices`)")
+            "among several devices. The default is $NEARLIGHT_DEVICE, or else the first GPU, CPU or "
+            "other device (see `nearlight devices`)")
         ->type_name("DEVICE");
     command
         .add_option("--kernel-dir", choice.options.kernel_dir,

@@ -87,7 +87,7 @@ void print_text(const DeviceList& list, const std::vector<DeviceEntry>& used,
     }
     print(
         "`nearlight render` uses the devices marked *: those that --device or NEARLIGHT_DEVICE names, or "
-        "else the first GPU, or else the first device. Several devices (--device all, or 0,1) share a "
+        "else the first GPU, CPU or other device. Several devices (--device all, or 0,1) share a "
         "picture.\n");
 }
 

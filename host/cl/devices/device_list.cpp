@@ -28,6 +28,14 @@ std::string trimmed(std::string text) {
     return text;
 }
 
+/// Whether a version, such as "OpenCL 3.0 PoCL" or "OpenCL C 1.2", is 1.2 or later.
+bool is_recent(const std::string& version) {
+    static const std::regex numbers(R"((\d+)\.(\d+))");
+    std::smatch match;
+    return !std::regex_search(version, match, numbers) ||
+           std::pair(std::stoi(match[1].str()), std::stoi(match[2].str())) >= std::pair(1, 2);
+}
+
 /// Asks the device for its properties. Throws cl::Error.
 void describe(DeviceEntry& entry) {
     const cl::Device& handle = entry.handle;
@@ -52,6 +60,10 @@ void describe(DeviceEntry& entry) {
         entry.unusable_because = "its driver has no compiler";
     } else if (!handle.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) {
         entry.unusable_because = "it is big-endian";
+    } else {
+        entry.unusable_because =
+            what_kernels_miss({entry.version, trimmed(handle.getInfo<CL_DEVICE_OPENCL_C_VERSION>())},
+                              trimmed(handle.getInfo<CL_DEVICE_PROFILE>()));
     }
 }
 
@@ -141,13 +153,18 @@ bool matches(const DeviceEntry& entry, const std::string& choice) {
     return lower_case(entry.name + " " + entry.platform).find(choice) != std::string::npos;
 }
 
+/// The order of preference. What is neither GPU nor CPU is often an emulator for developers.
+int rank_of(DeviceKind kind) {
+    return kind == DeviceKind::gpu ? 0 : kind == DeviceKind::cpu ? 1 : 2;
+}
+
 DeviceEntry default_device(const DeviceList& list) {
     const DeviceEntry* best = nullptr;
     for (const DeviceEntry& entry : list.devices) {
         if (!entry.unusable_because.empty()) {
             continue;
         }
-        if (best == nullptr || (entry.kind == DeviceKind::gpu && best->kind != DeviceKind::gpu)) {
+        if (best == nullptr || rank_of(entry.kind) < rank_of(best->kind)) {
             best = &entry;
         }
     }
@@ -238,6 +255,15 @@ std::vector<DeviceEntry> chosen_of(const DeviceList& list, const std::string& re
 }
 
 }  // namespace
+
+std::string what_kernels_miss(std::initializer_list<std::string> versions, const std::string& profile) {
+    for (const std::string& version : versions) {
+        if (!is_recent(version)) {
+            return "it has " + version + ", and the kernels need 1.2";
+        }
+    }
+    return profile == "FULL_PROFILE" ? "" : "it has OpenCL's profile " + profile + ", not the full one";
+}
 
 std::string to_string(DeviceKind kind) {
     return kind == DeviceKind::cpu ? "cpu" : kind == DeviceKind::gpu ? "gpu" : "other";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,15 +46,18 @@ struct DeviceList {
 void set_driver_defaults();
 /// Limits the threads of CPU drivers that allow it (PoCL). Must be called before list_devices().
 void limit_driver_threads(int threads);
+/// Why the kernels cannot be built for a device with these versions of OpenCL and OpenCL C, such as
+/// "OpenCL 3.0 PoCL", and this profile; empty if they can. Versions that cannot be read count as recent.
+std::string what_kernels_miss(std::initializer_list<std::string> versions, const std::string& profile);
 /// Lists all devices of all platforms. Errors of drivers become problems in the list and are not thrown.
 DeviceList list_devices();
 
 /// Chooses devices by `choice`, a list of items with commas between them. An item is an index, "cpu", "gpu",
 /// "all", or part of a name in any case. Each can end in "/N", which makes N equal parts of the device
 /// devices of their own, or in "/N.K", which takes only part K, counted from 0. An empty choice takes
-/// NEARLIGHT_DEVICE from the environment, else the first GPU, else the first device. Each device comes once;
-/// only "all", lists and parts give several devices. Throws Error(ErrorKind::no_device), which says what to
-/// do, or lists the devices.
+/// NEARLIGHT_DEVICE from the environment, else the first GPU, else the first CPU, else the first device. Each
+/// device comes once; only "all", lists and parts give several devices. Throws Error(ErrorKind::no_device),
+/// which says what to do, or lists the devices.
 std::vector<DeviceEntry> choose_devices(const DeviceList& list, const std::string& choice);
 
 }  // namespace nearlight::core

@@ -110,10 +110,22 @@ TEST_F(ChooseDevices, TheKindSkipsDevicesThatCannotBeUsed) {
     EXPECT_EQ(chosen("gpu"), Indices{2});
 }
 
-TEST_F(ChooseDevices, WithoutAChoiceTheFirstUsableGpuElseTheFirstUsable) {
+TEST_F(ChooseDevices, WithoutAChoiceTheFirstUsableGpuElseTheFirstCpuElseTheFirst) {
     EXPECT_EQ(chosen(""), Indices{2});
-    const DeviceList one{.devices = {entry(0, "CPU", DeviceKind::cpu)}, .problems = {}};
-    EXPECT_EQ(choose_devices(one, "").at(0).index, 0);
+    DeviceList list{.devices = {entry(0, "FPGA emulator", DeviceKind::other)}, .problems = {}};
+    EXPECT_EQ(choose_devices(list, "").at(0).index, 0);
+    list.devices.push_back(entry(1, "CPU", DeviceKind::cpu));
+    EXPECT_EQ(choose_devices(list, "").at(0).index, 1);
+}
+
+TEST(KernelsMiss, VersionsBelow12AndEmbeddedProfiles) {
+    EXPECT_EQ(what_kernels_miss({"OpenCL 1.2 x", "OpenCL C 1.2"}, "FULL_PROFILE"), "");
+    EXPECT_EQ(what_kernels_miss({"OpenCL 3.0 PoCL HSTR: 1.1", "OpenCL C 10.0"}, "FULL_PROFILE"), "");
+    EXPECT_EQ(what_kernels_miss({"no number"}, "FULL_PROFILE"), "");
+    EXPECT_EQ(what_kernels_miss({"OpenCL 1.1 Mesa", "OpenCL C 1.1"}, "FULL_PROFILE"),
+              "it has OpenCL 1.1 Mesa, and the kernels need 1.2");
+    EXPECT_NE(what_kernels_miss({"OpenCL 1.2", "OpenCL C 1.1"}, "FULL_PROFILE"), "");
+    EXPECT_NE(what_kernels_miss({"OpenCL 3.0", "OpenCL C 1.2"}, "EMBEDDED_PROFILE"), "");
 }
 
 TEST_F(ChooseDevices, TheEnvironmentChoosesWhereNothingElseDoes) {
