@@ -263,7 +263,8 @@ static inline void draw(const CutSource* source, const global CutEntry* cut, uin
             ask(list, vpl, 1.0f);
             continue;
         }
-        const float expected = fmax(entry.bound / limit, MIN_PROBABILITY);
+        // Where denormals count as 0 and all bounds are tiny, the quotient is not finite.
+        const float expected = fmin(fmax(entry.bound / limit, MIN_PROBABILITY), asked);
         for (; next < expected; next += 1.0f) {
             if (is_vpl_entry(entry)) {
                 ask(list, vpl, 1.0f / expected);
