@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/division.h"
 #include "host/base/message.h"
 #include "host/base/receiver_bundles.h"
 #include "host/base/receivers.h"
@@ -64,6 +65,27 @@ struct PilotLight {
     Packets vpl_squares;            ///< sum of the squares of what each VPL brings
 };
 
+/// The VPLs of a launch of the pilot's gather, which launches groups whole, so that it is short.
+std::size_t pilot_group_size(std::size_t vpl_count) {
+    constexpr std::size_t kMinGroup = 256;
+    constexpr std::size_t kMaxGroups = 64;
+    return std::max(kMinGroup, divide_rounding_up(vpl_count, kMaxGroups));
+}
+
+/// The sum of consecutive runs of `count` packets.
+Packets sum_of_groups(const Packets& groups, std::size_t count) {
+    Packets sum(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = count; i < groups.size(); ++i) {
+        IrradiancePacket& to = sum[i % count];
+        for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+            to.r[lane] += groups[i].r[lane];
+            to.g[lane] += groups[i].g[lane];
+            to.b[lane] += groups[i].b[lane];
+        }
+    }
+    return sum;
+}
+
 PilotLight light_of(const BudgetPilot& pilot, float radius) {
     Device& device = pilot.stages.device;
     const std::size_t packets = pilot.view.packet_count;
@@ -83,18 +105,19 @@ PilotLight light_of(const BudgetPilot& pilot, float radius) {
         light.direct[i] = direct.download();
         light.rays[i] = indirect.download();
     }
-    GatherSums<Vpl> sums(device, packets, 1);
+    const std::size_t group_size = pilot_group_size(pilot.vpls.count());
+    GatherSums<Vpl> sums(device, packets, divide_rounding_up(pilot.vpls.count(), group_size));
     pilot.stages.gatherer.gather<Vpl>({.tree = pilot.scene.tree,
                                        .vpls = pilot.vpls.buffer(),
                                        .vpl_count = pilot.vpls.count(),
                                        .receivers = pilot.view.receivers,
                                        .packet_count = packets,
                                        .clamp_radius = radius,
-                                       .group_size = static_cast<uint>(pilot.vpls.count()),
+                                       .group_size = static_cast<uint>(group_size),
                                        .curves = pilot.scene.curves_in_use(),
                                        .has_maps = pilot.scene.has_maps()},
                                       sums);
-    light.vpls = sums.groups.download();
+    light.vpls = sum_of_groups(sums.groups.download(), packets);
     light.vpl_squares = sums.squares.download();
     return light;
 }
