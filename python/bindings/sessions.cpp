@@ -241,7 +241,7 @@ void add_sessions(py::module_& module) {
         .def("look", &look, py::arg("settings") = py::none(), py::kw_only(), py::arg("seed") = 0,
              "look(self, settings=None, *, seed=0, **fields)\n--\n\n"
              "Decides what the settings leave open: a View.\n\nsettings: ViewSettings; fields are theirs, as "
-             "in look(width=320).")
+             "in look(width=320, height=240). A width\nalone leaves the scene's height.")
         .def("sample", &sample, py::arg("view"), py::arg("settings") = py::none(), py::kw_only(),
              py::arg("seed") = 0,
              "sample(self, view, settings=None, *, seed=0, **fields)\n--\n\n"
@@ -263,7 +263,8 @@ void add_sessions(py::module_& module) {
              "render(self, settings=None, *, progress=None, **fields)\n--\n\n"
              "Looks, samples and gathers, in one pass or several: a Picture.\n\n"
              "settings: RenderSettings; fields are theirs and those of ViewSettings, SamplingSettings and\n"
-             "GatherSettings, as in render(width=320, vpl_count=500, samples_per_pixel=4).\n"
+             "GatherSettings, as in render(width=320, height=240, vpl_count=500). A width alone leaves the\n"
+             "scene's height.\n"
              "progress: a function that takes how far the picture is, from 0 to 1; it may return False to "
              "stop.")
         .def("irradiance", &irradiance, py::arg("points"), py::arg("normals"), py::arg("vpls"),

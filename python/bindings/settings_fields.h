@@ -99,7 +99,8 @@ struct FieldsOf<GatherSettings> {
         Field{"direct_samples_per_pixel", &GatherSettings::direct_samples_per_pixel,
               "samples towards area lights and the environment; None: a pilot chooses"},
         Field{"compensate", &GatherSettings::compensate,
-              "whether rays bring back what the clamp radius takes away and what surfaces reflect"},
+              "whether rays bring back what the clamp radius takes away and what surfaces reflect other than "
+              "diffusely"},
         Field{"rays_per_pixel", &GatherSettings::rays_per_pixel, "the number of these rays"},
         Field{"refine", &GatherSettings::refine,
               "whether edges of lamps and windows, of their images and of highlights get more camera paths"},
