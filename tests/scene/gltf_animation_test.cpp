@@ -350,6 +350,8 @@ TEST_F(GltfAnimation, ChannelsThatFitNothingAreRefusedOrIgnored) {
     gltf_.root["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1};
     animate(0, "translation", keys, values);
     EXPECT_TRUE(mentions(error_at(0), "moves node 'thing', which has a matrix"));
+    gltf_.root["nodes"][0].erase("name");
+    EXPECT_TRUE(mentions(error_at(0), "moves node 1, which has a matrix")) << "counted from 1";
 }
 
 TEST_F(GltfAnimation, PointersAreNotedAsAnApproximation) {

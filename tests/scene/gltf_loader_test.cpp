@@ -217,7 +217,8 @@ TEST_F(GltfLoader, BrokenFilesAreRefused) {
     };
     EXPECT_THAT(with([](json& root) { root["nodes"][0]["mesh"] = 3; }),
                 HasSubstr("node 'thing' refers to mesh 3, but there are only 1"));
-    EXPECT_THAT(with([](json& root) { root["nodes"][0]["children"] = {0}; }), HasSubstr("its own ancestor"));
+    EXPECT_THAT(with([](json& root) { root["nodes"][0]["children"] = {0}; }),
+                HasSubstr("node 1 is its own ancestor"));
     EXPECT_THAT(with([](json& root) { root["scenes"][0]["nodes"] = {9}; }), HasSubstr("node 9"));
     EXPECT_THAT(with([](json& root) {
                     root["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}};

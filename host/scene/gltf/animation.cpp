@@ -24,9 +24,10 @@ std::string animation_name(const GltfFile& file, std::size_t animation) {
     return "animation " + (name.empty() ? std::to_string(animation + 1) : "'" + name + "'");
 }
 
+/// Nodes without a name are counted from 1, as in the names of objects.
 std::string name_of_node(const GltfFile& file, int node) {
     const std::string& name = file.model.nodes[static_cast<std::size_t>(node)].name;
-    return "node " + (name.empty() ? std::to_string(node) : "'" + name + "'");
+    return "node " + (name.empty() ? std::to_string(node + 1) : "'" + name + "'");
 }
 
 /// What an animation moves. Channels without a node are to be ignored, and so are properties that glTF's

@@ -78,7 +78,7 @@ std::vector<PlacedNode> place_below(const GltfFile& file, const std::vector<int>
         open.pop_back();
         const tinygltf::Node& node = file.at(file.model.nodes, index, "node", "a scene or node");
         if (visited[static_cast<std::size_t>(index)]) {
-            file.fail("node " + std::to_string(index) + " is its own ancestor, or has two parents");
+            file.fail("node " + std::to_string(index + 1) + " is its own ancestor, or has two parents");
         }
         visited[static_cast<std::size_t>(index)] = true;
         if (is_hidden(node) && !with_hidden) {
