@@ -40,7 +40,7 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     }
     static_cast<void>(window_in(scene, settings));
     if (settings.sampling.vpl_count == 0 && settings.sampling.file.empty()) {
-        spdlog::warn("with --vpls 0 the picture has no indirect light");
+        spdlog::warn("with --vpls 0 the picture lacks the indirect light that VPLs bring");
     }
 }
 

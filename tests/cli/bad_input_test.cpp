@@ -166,7 +166,7 @@ TEST_F(BadInputOnDevice, OddMeshesAreTakenAsTheyAre) {
 TEST_F(BadInputOnDevice, ScenesInWhichThereIsNothingToSee) {
     expect_picture(render(write_scene("")), "the scene has no triangles");
     expect_picture(render(write_scene(kRoom)), "nothing in the scene emits light");
-    expect_picture(render(good_scene(), "--vpls 0"), "no indirect light");
+    expect_picture(render(good_scene(), "--vpls 0"), "lacks the indirect light that VPLs bring");
     expect_picture(render(write_scene(kRoom + kLamp +
                                       "<shape type='cube'><transform name='to_world'>"
                                       "<scale value='0.05'/><translate z='-0.9'/></transform></shape>")),
