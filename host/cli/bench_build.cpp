@@ -97,9 +97,11 @@ void add_bench_build(CommandLine& line, CLI::App& group) {
     add_size_option(command, options->size)->default_str("512x512");
     command.add_option("--vpls", options->vpls, "Number of VPLs; the steps of their shadow rays are counted")
         ->check(CLI::Range(1, 1 << 20))
+        ->type_name("N")
         ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Number of builds of each tree; the median counts")
         ->check(CLI::Range(1, 1000))
+        ->type_name("N")
         ->capture_default_str();
 }
 

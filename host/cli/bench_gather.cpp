@@ -156,9 +156,11 @@ void add_bench_gather(CommandLine& line, CLI::App& group) {
     add_size_option(command, options->size)->default_str("512x512");
     command.add_option("--vpls", options->vpls, "Number of VPLs")
         ->check(CLI::Range(1, 1 << 20))
+        ->type_name("N")
         ->capture_default_str();
     command.add_option("--repeats", options->repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
+        ->type_name("N")
         ->capture_default_str();
     std::map<std::string, GatherKernel> kernels{kGatherKernels.begin(), kGatherKernels.end()};
     kernels.erase(to_string(GatherKernel::automatic));

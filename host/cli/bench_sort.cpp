@@ -67,9 +67,11 @@ void add_bench_sort(CommandLine& line, CLI::App& group) {
         [options](const GlobalOptions& global) { return run_bench_sort(*options, global); });
     command.add_option("--count", options->config.count, "Number of keys")
         ->check(CLI::Range(1, 1 << 28))
+        ->type_name("N")
         ->capture_default_str();
     command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
+        ->type_name("N")
         ->capture_default_str();
     add_device_options(command, options->device);
 }

@@ -106,9 +106,11 @@ void add_bench_trace(CommandLine& line, CLI::App& group) {
     add_size_option(command, options->size)->default_str("512x512");
     command.add_option("--rays", options->config.walk_rays, "Number of rays of light walks")
         ->check(CLI::Range(1, 1 << 26))
+        ->type_name("N")
         ->capture_default_str();
     command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
+        ->type_name("N")
         ->capture_default_str();
     add_device_options(command, options->device);
 }

@@ -89,7 +89,7 @@ std::string reworded(const std::string& text) {
          "$1: '$2' is no whole number from $3 to $4"},
         {std::regex(R"((.*): Value (.*) not in range \[?(.*)(?: to | - )([^\]]*)\]?)"),
          "$1: '$2' is no number from $3 to $4"},
-        {std::regex("Could not convert: (.*) = (.*)"), "$1: '$2' is no value that it takes"}};
+        {std::regex("Could not convert: (.*) = (.*)"), "$1: '$2' is no number"}};
     for (const auto& [pattern, wording] : kWordings) {
         if (std::regex_match(text, pattern)) {
             return std::regex_replace(text, pattern, wording);
@@ -280,6 +280,34 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size) {
 CLI::Option* add_scene_size_option(CLI::App& command, ImageSize& size) {
     return add_size_option(command, size)
         ->description("Size of the picture, in pixels (default: the scene's)");
+}
+
+Error unknown_choice(const std::string& option, const std::string& text, const std::string& names) {
+    return {ErrorKind::invalid_argument, "unknown " + option + " '" + text + "'; choose one of: " + names};
+}
+
+CLI::Option* add_words(CLI::App& command, const std::string& option, const std::vector<std::string>& words,
+                       std::function<void(const std::string& word)> take, const std::string& description) {
+    const auto choose = [option, words, take = std::move(take)](const std::string& text) {
+        if (std::ranges::find(words, text) == words.end()) {
+            throw unknown_choice(option, text, joined(words, ", "));
+        }
+        take(text);
+    };
+    return command.add_option_function<std::string>(option, choose, description)
+        ->type_name(joined(words, "|"));
+}
+
+CLI::Validator whole_number_to(std::uint64_t high) {
+    return CLI::Validator(
+        [high](const std::string& text) {
+            std::uint64_t value = 0;
+            const bool is_number = text.find('-') == std::string::npos &&
+                                   CLI::detail::lexical_cast(text, value) && value <= high;
+            return is_number ? std::string()
+                             : fmt::format("'{}' is no whole number from 0 to {}", text, high);
+        },
+        "");
 }
 
 CLI::Validator number_from(double low, double high) {

@@ -9,10 +9,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/base/words.h"
 #include "host/cli/command_facts.h"
@@ -58,6 +61,8 @@ class CommandLine {
 
 /// Accepts numbers from `low` to `high`, and no NaN.
 CLI::Validator number_from(double low, double high);
+/// Accepts whole numbers from 0 to `high`. The parser alone takes those below 0 for very large ones.
+CLI::Validator whole_number_to(std::uint64_t high);
 
 struct ImageSize {
     int width = 0;
@@ -77,6 +82,24 @@ CLI::Option* add_size_option(CLI::App& command, ImageSize& size);
 /// The same option where the scene's size is the default.
 CLI::Option* add_scene_size_option(CLI::App& command, ImageSize& size);
 
+/// Adds the option --seed, which takes all numbers that `seed` can hold.
+template <typename Seed>
+CLI::Option* add_seed_option(CLI::App& command, Seed& seed) {
+    return command
+        .add_option("--seed", seed, "Seed of the random numbers: the same seed gives the same picture")
+        ->check(whole_number_to(std::numeric_limits<Seed>::max()))
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+/// The error of an option whose value is none of the names that it takes.
+Error unknown_choice(const std::string& option, const std::string& text, const std::string& names);
+
+/// Adds an option that takes one of `words`, which its help shows in this order. `take` is called with the
+/// word that is given. The error for any other word lists them, and completions offer them.
+CLI::Option* add_words(CLI::App& command, const std::string& option, const std::vector<std::string>& words,
+                       std::function<void(const std::string& word)> take, const std::string& description);
+
 /// Adds an option whose value must be the name of a choice. The error for any other value lists the names,
 /// and completions offer them. `value` is a Choice or an optional one.
 template <typename Choice, typename Value>
@@ -86,8 +109,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
     const auto choose = [option, &value, choices, names](const std::string& text) {
         const auto found = choices.find(text);
         if (found == choices.end()) {
-            throw Error(ErrorKind::invalid_argument, "unknown " + option + " '" + text +
-                                                         "'; choose one of: " + joined(choices, ", ", names));
+            throw unknown_choice(option, text, joined(choices, ", ", names));
         }
         value = found->second;
     };

@@ -9,14 +9,12 @@
 namespace nearlight::core {
 
 void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sampling) {
-    command
-        .add_option("--cuts", cuts,
-                    "on: there are more VPLs than --vpls, and each small group of neighbouring samples (a "
-                    "bundle) asks about those that could bring it most; off: there are as many as --vpls; "
-                    "auto: on with --vpl-set")
-        ->check(CLI::IsMember({"on", "off", "auto"}))
-        ->type_name("on|off|auto")
-        ->capture_default_str();
+    add_words(
+        command, "--cuts", {"on", "off", "auto"}, [&cuts](const std::string& word) { cuts = word; },
+        "on: there are more VPLs than --vpls, and each small group of neighbouring samples (a "
+        "bundle) asks about those that could bring it most; off: there are as many as --vpls; "
+        "auto: on with --vpl-set")
+        ->default_str(cuts);
     command
         .add_option("--vpl-set", sampling.set_count,
                     "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: "

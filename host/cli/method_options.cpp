@@ -76,27 +76,22 @@ void add_sampler_options(CLI::App& command, RenderSettings& settings, MethodText
 }
 
 void add_refine_option(CLI::App& command, GatherSettings& gather) {
-    command
-        .add_option_function<std::string>(
-            "--refine", [&gather](const std::string& text) { gather.refine = text == "on"; },
-            "on: pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up "
-            "to 8 times the camera paths of others, for light that needs no VPLs; off: all have the same "
-            "number")
-        ->check(CLI::IsMember({"on", "off"}))
-        ->type_name("on|off")
+    add_words(
+        command, "--refine", {"on", "off"},
+        [&gather](const std::string& word) { gather.refine = word == "on"; },
+        "on: pixels at edges of windows and lamps, of their images in mirrors, and of highlights get up "
+        "to 8 times the camera paths of others, for light that needs no VPLs; off: all have the same "
+        "number")
         ->default_str("on");
 }
 
 void add_splat_option(CLI::App& command, std::string& splat) {
-    command
-        .add_option(
-            "--splat", splat,
-            "on: samples count in all pixels whose reconstruction filter reaches them, which leaves "
-            "about a half to a third of the variance; off: in their own pixel alone, so that pixels have "
-            "noise of their own, as denoisers expect (default: on, but off with --denoise and with layers "
-            "of mattes)")
-        ->check(CLI::IsMember({"on", "off"}))
-        ->type_name("on|off");
+    add_words(
+        command, "--splat", {"on", "off"}, [&splat](const std::string& word) { splat = word; },
+        "on: samples count in all pixels whose reconstruction filter reaches them, which leaves "
+        "about a half to a third of the variance; off: in their own pixel alone, so that pixels have "
+        "noise of their own, as denoisers expect (default: on, but off with --denoise and with layers "
+        "of mattes)");
 }
 
 void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts& texts, Pilot pilot) {
@@ -114,14 +109,11 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
                                              : "is a twentieth of the range"))
         ->type_name("R")
         ->capture_default_str();
-    command
-        .add_option_function<std::string>(
-            "--compensate",
-            [&settings](const std::string& text) { settings.gather.compensate = text == "on"; },
-            "on: rays bring back the light that the clamp radius takes away and what surfaces reflect other "
-            "than diffusely, so that the picture is the scene's own; off: the clamped picture of the VPLs")
-        ->check(CLI::IsMember({"on", "off"}))
-        ->type_name("on|off")
+    add_words(
+        command, "--compensate", {"on", "off"},
+        [&settings](const std::string& word) { settings.gather.compensate = word == "on"; },
+        "on: rays bring back the light that the clamp radius takes away and what surfaces reflect other "
+        "than diffusely, so that the picture is the scene's own; off: the clamped picture of the VPLs")
         ->default_str("on");
     command
         .add_option("--rays", settings.gather.rays_per_pixel,
@@ -136,11 +128,7 @@ void add_method_options(CLI::App& command, RenderSettings& settings, MethodTexts
                     "scene's, or 256)")
         ->check(CLI::Range(1u, kMaxPathDepth))
         ->type_name("N");
-    command
-        .add_option("--seed", settings.seed,
-                    "Seed of the random numbers: the same seed gives the same picture")
-        ->type_name("N")
-        ->capture_default_str();
+    add_seed_option(command, settings.seed);
     command
         .add_option("--roulette", settings.gather.roulette,
                     "Russian roulette: trace a VPL that could bring less than T times the mean only with a "

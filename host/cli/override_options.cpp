@@ -11,15 +11,16 @@
 namespace nearlight::core {
 namespace {
 
-/// N numbers separated by commas, as `option` wants them.
+constexpr const char* kPoint = "X,Y,Z, finite numbers separated by commas";
+
+/// N numbers separated by commas. `wanted` says in errors what `option` must be.
 template <std::size_t N>
-std::array<double, N> parse_numbers(const char* option, const char* form, const std::string& text) {
+std::array<double, N> parse_numbers(const char* option, const char* wanted, const std::string& text) {
     const std::optional<std::vector<double>> given = numbers_in(text);
     const auto is_finite = [](double number) { return std::isfinite(number); };
     if (!given || given->size() != N || !std::ranges::all_of(*given, is_finite)) {
-        throw Error(ErrorKind::invalid_argument, std::string(option) + " must be " + form +
-                                                     ", finite numbers separated by commas, not '" + text +
-                                                     "'");
+        throw Error(ErrorKind::invalid_argument,
+                    std::string(option) + " must be " + wanted + ", not '" + text + "'");
     }
     std::array<double, N> numbers{};
     std::ranges::copy(*given, numbers.begin());
@@ -35,25 +36,25 @@ void add_camera_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option_function<std::string>(
             "--origin",
-            [&](const std::string& text) { overrides.origin = parse_numbers<3>("--origin", "X,Y,Z", text); },
+            [&](const std::string& text) { overrides.origin = parse_numbers<3>("--origin", kPoint, text); },
             "Where the camera stands; it looks at --target")
         ->type_name("X,Y,Z");
     command
         .add_option_function<std::string>(
             "--target",
-            [&](const std::string& text) { overrides.target = parse_numbers<3>("--target", "X,Y,Z", text); },
+            [&](const std::string& text) { overrides.target = parse_numbers<3>("--target", kPoint, text); },
             "What the camera looks at (default with --origin: the middle of the scene)")
         ->type_name("X,Y,Z");
     command
         .add_option_function<std::string>(
-            "--up", [&](const std::string& text) { overrides.up = parse_numbers<3>("--up", "X,Y,Z", text); },
+            "--up", [&](const std::string& text) { overrides.up = parse_numbers<3>("--up", kPoint, text); },
             "The direction that is upwards in the picture")
         ->type_name("X,Y,Z");
     command
         .add_option_function<std::string>(
             "--fov",
             [&](const std::string& text) {
-                overrides.fov_degrees = parse_numbers<1>("--fov", "DEG", text)[0];
+                overrides.fov_degrees = parse_numbers<1>("--fov", "a number of degrees", text)[0];
             },
             "Horizontal field of view, degrees")
         ->type_name("DEG");
@@ -82,7 +83,8 @@ void add_override_options(CLI::App& command, SceneOptions& options) {
         .add_option_function<std::string>(
             "--sun",
             [&](const std::string& text) {
-                const auto [azimuth, elevation] = parse_numbers<2>("--sun", "AZIMUTH,ELEVATION", text);
+                const auto [azimuth, elevation] =
+                    parse_numbers<2>("--sun", "AZIMUTH,ELEVATION, two numbers of degrees", text);
                 overrides.sun = SunPosition{azimuth, elevation};
             },
             "Adds the sun there: degrees from +Z towards +X, and above the horizon; --environment sky "

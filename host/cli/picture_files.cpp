@@ -139,14 +139,11 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->delimiter(',')
         ->allow_extra_args(false);
     add_screen_options(command, options.screen);
-    command
-        .add_option_function<std::string>(
-            "--exr-precision",
-            [&options](const std::string& text) { options.is_full_precision = text == "float"; },
-            "half: colours and normals of EXR pictures are 16-bit floats, up to 65504, and positions, depths "
-            "and variances are 32-bit floats; float: all are 32-bit floats")
-        ->check(CLI::IsMember({"half", "float"}))
-        ->type_name("half|float")
+    add_words(
+        command, "--exr-precision", {"half", "float"},
+        [&options](const std::string& word) { options.is_full_precision = word == "float"; },
+        "half: colours and normals of EXR pictures are 16-bit floats, up to 65504, and positions, depths "
+        "and variances are 32-bit floats; float: all are 32-bit floats")
         ->default_str("half");
     add_choice<ExrCompression>(
         command, "--exr-compression", options.compression, {kExrCompressions.begin(), kExrCompressions.end()},

@@ -255,11 +255,14 @@ void add_reference_command(CommandLine& line) {
                     "Samples per pixel, rounded up to a multiple of 4 from 32 on, and of 16 from 256 on "
                     "(default: the scene's, or " +
                         std::to_string(kDefaultSpp) + ")")
-        ->check(CLI::Range(1, 1 << 24));
+        ->check(CLI::Range(1, 1 << 24))
+        ->type_name("N");
     command
         .add_option("--clamp-radius", options->clamp_radius,
                     "Clamp radius, in m: bound 1/r² below this distance; 0 bounds nothing")
-        ->check(number_from(0, kMaxLength));
+        ->check(number_from(0, kMaxLength))
+        ->type_name("R")
+        ->capture_default_str();
     command.add_flag("--indirect-only", options->indirect_only, "Leave out emission and direct light");
     command.add_flag("--pixel-centers", options->pixel_centers,
                      "Send all samples through the centres of pixels, as `nearlight render --spp 1` does");
@@ -267,17 +270,19 @@ void add_reference_command(CommandLine& line) {
         .add_option(
             "--max-depth", options->max_depth,
             "Maximum path depth: 2 is direct light only, 0 is unlimited (default: the scene's, or 256)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0, static_cast<int>(kMaxPathDepth)))
+        ->type_name("N");
     add_scene_size_option(command, options->size);
     add_filter_option(command, options->scene.filter);
     add_glass_option(command, options->scene.clear_glass);
     command.add_flag("--resume", options->resume,
                      "Resume the EXR output, if it exists, until it has --spp samples per pixel; its scene, "
                      "size and options must be the same");
-    command.add_option("--seed", options->seed,
-                       "Seed of the random numbers: the same seed gives the same picture");
+    add_seed_option(command, options->seed);
     command.add_option("--threads", options->threads, "CPU threads; 0: one per core")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 }  // namespace nearlight::core

@@ -37,8 +37,7 @@ void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter) {
     const auto choose = [&filter](const std::string& name) {
         filter = filter_kind(name);
         if (!filter) {
-            throw Error(ErrorKind::invalid_argument,
-                        "unknown --filter '" + name + "'; choose one of: " + filter_names());
+            throw unknown_choice("--filter", name, filter_names());
         }
     };
     command
@@ -49,15 +48,12 @@ void add_filter_option(CLI::App& command, std::optional<FilterKind>& filter) {
 }
 
 void add_glass_option(CLI::App& command, bool& clear_glass) {
-    command
-        .add_option_function<std::string>(
-            "--glass", [&clear_glass](const std::string& text) { clear_glass = text == "clear"; },
-            "refract: as in Mitsuba, solid glass casts shadows and caustics, and hides point lights, spots "
-            "and "
-            "directional lights as panes and masks do; clear: shadow rays of all lights go straight through "
-            "glass, panes and masks, with their transmittance")
-        ->check(CLI::IsMember({"refract", "clear"}))
-        ->type_name("refract|clear")
+    add_words(
+        command, "--glass", {"refract", "clear"},
+        [&clear_glass](const std::string& word) { clear_glass = word == "clear"; },
+        "refract: as in Mitsuba, solid glass casts shadows and caustics, and hides point lights, spots and "
+        "directional lights as panes and masks do; clear: shadow rays of all lights go straight through "
+        "glass, panes and masks, with their transmittance")
         ->default_str("refract");
 }
 
@@ -66,16 +62,13 @@ std::string glass_name(bool clear_glass) {
 }
 
 void add_bvh_option(CLI::App& command, BvhQuality& quality) {
-    command
-        .add_option_function<std::string>(
-            "--bvh",
-            [&quality](const std::string& name) {
-                quality = name == "fast" ? BvhQuality::fast : BvhQuality::quality;
-            },
-            "Tree for rays: fast (takes half the time to build) or quality (up to a quarter fewer steps per "
-            "ray)")
-        ->check(CLI::IsMember({"fast", "quality"}))
-        ->type_name("fast|quality")
+    add_words(
+        command, "--bvh", {"fast", "quality"},
+        [&quality](const std::string& word) {
+            quality = word == "fast" ? BvhQuality::fast : BvhQuality::quality;
+        },
+        "Tree for rays: fast (takes half the time to build) or quality (up to a quarter fewer steps per "
+        "ray)")
         ->default_str(to_string(quality));
 }
 

@@ -2,6 +2,7 @@
 #include "host/cli/stored_reference.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 
 namespace nearlight::core {
 namespace {
+
+constexpr const char* kSamplerAttribute = "nearlight:sampler";
+constexpr const char* kSceneAttribute = "nearlight:sceneHash";
 
 std::string to_text(const Metadata::mapped_type& value) {
     if (const auto* integer = std::get_if<int>(&value)) {
@@ -37,18 +41,53 @@ T attribute(const std::filesystem::path& file, const Metadata& stored, const std
     return std::get<T>(found->second);
 }
 
-/// The differences in words, such as "nearlight:clampRadius is 0.1, not 0".
+/// The option behind an attribute, and whether it is a flag.
+struct AttributeOption {
+    const char* attribute;
+    const char* option;
+    bool is_flag = false;
+};
+constexpr std::array kAttributeOptions{AttributeOption{"nearlight:clampRadius", "--clamp-radius"},
+                                       AttributeOption{"nearlight:indirectOnly", "--indirect-only", true},
+                                       AttributeOption{"nearlight:pixelCenters", "--pixel-centers", true},
+                                       AttributeOption{"nearlight:maxDepth", "--max-depth"},
+                                       AttributeOption{"nearlight:seed", "--seed"}};
+
+/// How the stored value of an attribute differs from the one that is wanted, in words.
+std::string difference(const std::string& name, const std::string& stored, const std::string& wanted) {
+    const auto* const option = std::ranges::find(kAttributeOptions, name, &AttributeOption::attribute);
+    if (option == kAttributeOptions.end()) {
+        return name == kSceneAttribute ? "it has another scene, camera, --filter or --glass"
+                                       : "its " + name + " is " + stored + ", not " + wanted;
+    }
+    if (option->is_flag) {
+        return std::string(stored == "0" ? "it lacks " : "it has ") + option->option;
+    }
+    return std::string("it has ") + option->option + " " + stored + ", not " + wanted;
+}
+
+/// The differences in words, such as "it has --clamp-radius 0.1, not 0".
 std::vector<std::string> differences(const Metadata& stored, const Metadata& wanted) {
     std::vector<std::string> found;
     for (const auto& [name, value] : wanted) {
         const auto other = stored.find(name);
         if (other == stored.end()) {
-            found.push_back(name + " is missing");
+            found.push_back("its " + name + " is missing");
         } else if (other->second != value) {
-            found.push_back(name + " is " + to_text(other->second) + ", not " + to_text(value));
+            found.push_back(difference(name, to_text(other->second), to_text(value)));
         }
     }
     return found;
+}
+
+/// Throws Error(ErrorKind::file) if the picture was made by something else than `nearlight reference`.
+void check_maker(const std::filesystem::path& file, const Metadata& stored, const Metadata& wanted) {
+    const auto sampler = stored.find(kSamplerAttribute);
+    if (sampler == stored.end() || sampler->second != wanted.at(kSamplerAttribute)) {
+        throw Error(ErrorKind::file, "'" + file.string() +
+                                         "' was not made by `nearlight reference`, so it cannot be resumed; "
+                                         "give another output");
+    }
 }
 
 int min_samples(const Image& image, const std::filesystem::path& file) {
@@ -67,14 +106,14 @@ int min_samples(const Image& image, const std::filesystem::path& file) {
 }  // namespace
 
 Metadata reference_identity(const PathTracerSettings& settings, const Scene& scene) {
-    return {{"nearlight:sampler", std::string("reference")},
+    return {{kSamplerAttribute, std::string("reference")},
             {"nearlight:clampRadius", settings.clamp_radius},
             {"nearlight:indirectOnly", settings.indirect_only ? 1 : 0},
             {"nearlight:pixelCenters", settings.pixel_centers ? 1 : 0},
             {"nearlight:maxDepth", settings.max_depth},
             {"nearlight:seed", std::to_string(settings.seed)},
             {"nearlight:version", std::string(NEARLIGHT_VERSION)},
-            {"nearlight:sceneHash", fmt::format("{:016x}", scene_hash(scene))}};
+            {kSceneAttribute, fmt::format("{:016x}", scene_hash(scene))}};
 }
 
 std::optional<StoredReference> read_stored_reference(const std::filesystem::path& file,
@@ -84,9 +123,10 @@ std::optional<StoredReference> read_stored_reference(const std::filesystem::path
         return std::nullopt;
     }
     const Metadata stored = read_metadata(file);
-    const std::vector<std::string> other = differences(stored, reference_identity(wanted, scene));
-    if (!other.empty()) {
-        refuse(file, fmt::format("{}", fmt::join(other, ", ")));
+    const Metadata identity = reference_identity(wanted, scene);
+    check_maker(file, stored, identity);
+    if (const std::vector<std::string> other = differences(stored, identity); !other.empty()) {
+        refuse(file, fmt::format("{}", fmt::join(other, "; ")));
     }
     StoredReference reference{.image = read_image(file),
                               .batch_size = attribute<int>(file, stored, "nearlight:samplesPerBatch"),

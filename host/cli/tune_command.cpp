@@ -125,11 +125,13 @@ void add_tune_command(CommandLine& line) {
         [options](const GlobalOptions& global) { return run_tune(*options, global); });
     command.add_option("--repeats", options->config.repeats, "Number of runs; the median counts")
         ->check(CLI::Range(1, 1000))
+        ->type_name("N")
         ->capture_default_str();
     command
         .add_option("--triangles", options->config.triangles,
                     "Number of triangles in the generated room that is measured")
         ->check(CLI::Range(100, 10'000'000))
+        ->type_name("N")
         ->capture_default_str();
     command.add_flag("--dry-run", options->dry_run, "Measure, but keep nothing");
     command.add_flag("--reset", options->reset, "Delete the result that is kept for the device");

@@ -107,10 +107,27 @@ TEST(CommandLine, WrongLinesAreUsageErrors) {
     expect_error(run_program("diff a b --quiet --verbose"), 2, "contradict");
     expect_error(run_program("render a.xml --spp 4.5"), 2,
                  "--spp: '4.5' is no whole number from 1 to 65536; see");
-    expect_error(run_program("render a.xml --seed -1"), 2, "--seed: '-1' is no value that it takes; see");
+    expect_error(run_program("render a.xml --seed -1"), 2,
+                 "--seed: '-1' is no whole number from 0 to 4294967295; see");
+    expect_error(run_program("render a.xml --seed foo"), 2, "--seed: 'foo' is no whole number from 0 to");
+    expect_error(run_program("render a.xml --light-scale foo"), 2, "--light-scale: 'foo' is no number; see");
+    expect_error(run_program("render a.xml --fov foo"), 2, "--fov must be a number of degrees, not 'foo'");
     expect_error(run_program("render a.xml --size 8x8 --size 9x9"), 2,
                  "--size is given 2 times; give it once; see");
     expect_error(run_program("render a.xml --spp " + std::string(100000, '9')), 2, "--spp");
+}
+
+TEST(CommandLine, WordsThatAnOptionTakesAreListed) {
+    expect_error(run_program("render a.xml --glass foo"), 2,
+                 "unknown --glass 'foo'; choose one of: refract, clear");
+    expect_error(run_program("render a.xml --refine foo"), 2,
+                 "unknown --refine 'foo'; choose one of: on, off");
+    expect_error(run_program("render a.xml --cuts foo"), 2,
+                 "unknown --cuts 'foo'; choose one of: on, off, auto");
+    expect_error(run_program("render a.xml --exr-precision foo"), 2,
+                 "unknown --exr-precision 'foo'; choose one of: half, float");
+    expect_error(run_program("render a.xml --bvh foo"), 2,
+                 "unknown --bvh 'foo'; choose one of: fast, quality");
 }
 
 TEST(CommandLine, AFileAloneGetsTheCommandThatRendersIt) {

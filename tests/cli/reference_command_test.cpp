@@ -125,11 +125,10 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
         EXPECT_EQ(result.exit_code, 3) << options;
         EXPECT_NE(result.errors.find(named), std::string::npos) << result.errors;
     };
-    expect_refused("--clamp-radius 0.5", "nearlight:clampRadius is 0, not 0.5");
-    expect_refused("--max-depth 7", "nearlight:maxDepth is 2, not 7");
-    expect_refused("--indirect-only", "nearlight:indirectOnly");
-    expect_refused("--pixel-centers", "nearlight:pixelCenters");
-    expect_refused("--seed 9", "nearlight:seed");
+    expect_refused("--clamp-radius 0.5", "it has --clamp-radius 0, not 0.5; use");
+    expect_refused("--max-depth 7 --seed 9", "it has --max-depth 2, not 7; it has --seed 0, not 9; use");
+    expect_refused("--indirect-only", "it lacks --indirect-only");
+    expect_refused("--pixel-centers", "it lacks --pixel-centers");
     expect_refused("--size 4x3", "8x6 pixels, not 4x3");
     EXPECT_EQ(file_text(output_), before);
     std::ofstream(scene_, std::ios::app) << "\n";
@@ -138,10 +137,33 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
     std::string other = floor_from_above();
     other.replace(other.find("0.125"), 5, "0.126");
     std::ofstream(scene_) << other;
-    expect_refused("", "nearlight:sceneHash");
+    expect_refused("", "it has another scene, camera, --filter or --glass");
     EXPECT_EQ(
         run_program("reference --resume " + quoted(scene_) + " -o " + quoted(folder_ / "a.png")).exit_code,
         2);
+}
+
+TEST_F(Reference, APictureOfAnotherCommandIsNotResumed) {
+    const Image picture = make_image(8, 6, {"R", "G", "B"});
+    write_image(output_, picture,
+                {.metadata = {{"nearlight:sampler", "close-range"}, {"nearlight:seed", 0}}});
+    const ProgramResult result = run_program("reference --resume --spp 4 " + files());
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.errors.find("reference.exr' was not made by `nearlight reference`"), std::string::npos)
+        << result.errors;
+    EXPECT_EQ(read_image(output_).channels, picture.channels) << "it is still there";
+}
+
+TEST_F(Reference, NumbersHaveRangesLikeThoseOfRender) {
+    const auto expect_usage_error = [&](const std::string& options, const std::string& part) {
+        const ProgramResult result = run_program("reference " + options + " " + files());
+        EXPECT_EQ(result.exit_code, 2) << options;
+        EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
+    };
+    expect_usage_error("--threads -1", "--threads: '-1' is no whole number from 0 to 1024");
+    expect_usage_error("--max-depth foo", "--max-depth: 'foo' is no whole number from 0 to 1024");
+    expect_usage_error("--seed -1", "--seed: '-1' is no whole number from 0 to 18446744073709551615");
+    EXPECT_EQ(run_program("reference --spp 4 --seed 18446744073709551615 " + files()).exit_code, 0);
 }
 
 TEST_F(Reference, OneThatHasHardlyBegunDoesNotReplaceAnOlderOne) {
