@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/words.h"
 #include "host/cli/log.h"
 #include "host/cli/matte_layers.h"
 #include "host/cli/output.h"
@@ -28,17 +29,29 @@ struct DiffOptions {
 };
 
 struct LayerDifference {
-    std::string layer;  ///< empty: the picture itself
+    std::string layer;  ///< empty: the beauty
     ImageDifference difference;
 };
 
-/// What `nearlight render` calls the picture itself.
+/// What `nearlight render` calls the channels R, G and B without a name.
 constexpr const char* kBeauty = "beauty";
 /// The channel of pictures of greys.
 constexpr const char* kGrey = "Y";
 
 std::string name_of(const std::string& layer) {
-    return layer.empty() ? "(picture)" : layer;
+    return layer.empty() ? kBeauty : layer;
+}
+
+/// Throws Error(ErrorKind::file) if the picture of a file lacks one of the layers.
+void check_layers(const Image& image, const std::filesystem::path& file,
+                  const std::vector<std::string>& layers) {
+    const std::vector<std::string> known = layer_names(image.channels);
+    for (const std::string& layer : layers) {
+        if (std::ranges::find(known, name_of(layer)) == known.end()) {
+            throw Error(ErrorKind::file, fmt::format("'{}' has no layer '{}'; it has {}", file.string(),
+                                                     name_of(layer), joined(known, ", ")));
+        }
+    }
 }
 
 /// The layers that the options name, or else all layers of colours that both pictures have. A picture of
@@ -71,7 +84,7 @@ nlohmann::ordered_json to_json(const DiffOptions& options, const Image& a,
                                const std::vector<LayerDifference>& differences) {
     nlohmann::ordered_json layers = nlohmann::ordered_json::array();
     for (const auto& [layer, difference] : differences) {
-        layers.push_back({{"layer", layer},
+        layers.push_back({{"layer", name_of(layer)},
                           {"rmse", difference.rmse},
                           {"relative_mse", difference.relative_mse},
                           {"mean_ratio", difference.mean_ratio},
@@ -164,6 +177,8 @@ ExitCode run_diff(const DiffOptions& options, const GlobalOptions& global) {
     }
     const float scale = std::exp2(options.exposure);
     const std::vector<std::string> layers = layers_to_compare(options, a, b);
+    check_layers(a, options.image, layers);
+    check_layers(b, options.reference, layers);
     std::vector<LayerDifference> differences;
     for (const std::string& layer : layers) {
         differences.push_back({layer, compare_images(a, b, layer, scale)});

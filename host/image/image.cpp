@@ -11,6 +11,24 @@ int Image::find_channel(std::string_view name) const {
     return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
 }
 
+std::string_view layer_of(std::string_view channel) {
+    const std::size_t dot = channel.rfind('.');
+    if (dot != std::string_view::npos) {
+        return channel.substr(0, dot);
+    }
+    return channel == "R" || channel == "G" || channel == "B" ? "beauty" : channel;
+}
+
+std::vector<std::string> layer_names(std::span<const std::string> channels) {
+    std::vector<std::string> names;
+    for (const std::string& channel : channels) {
+        if (std::ranges::find(names, layer_of(channel)) == names.end()) {
+            names.emplace_back(layer_of(channel));
+        }
+    }
+    return names;
+}
+
 Image part_of(const Image& image, int x, int y, int width, int height) {
     Image part = make_image(width, height, image.channels);
     part.holds_floats = image.holds_floats;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,12 @@ struct Image {
     /// Index of the channel called `name`, or -1.
     [[nodiscard]] int find_channel(std::string_view name) const;
 };
+
+/// The layer that a channel belongs to: `beauty` for R, G and B, otherwise what stands before the last dot,
+/// or the whole name if there is none.
+std::string_view layer_of(std::string_view channel);
+/// The layers of the channels, each once, in their order.
+std::vector<std::string> layer_names(std::span<const std::string> channels);
 
 /// The part of an image whose top left pixel is (x, y). It must lie inside.
 Image part_of(const Image& image, int x, int y, int width, int height);

@@ -72,21 +72,11 @@ ColorLayers color_layers_of(const Image& image, const Image& reference, std::str
 }  // namespace
 
 std::string_view layer_of(std::string_view channel) {
-    const std::size_t dot = channel.rfind('.');
-    if (dot != std::string_view::npos) {
-        return channel.substr(0, dot);
-    }
-    return channel == "R" || channel == "G" || channel == "B" ? "beauty" : channel;
+    return core::layer_of(channel);
 }
 
 std::vector<std::string> layer_names(const Image& image) {
-    std::vector<std::string> names;
-    for (const std::string& channel : image.channels) {
-        if (std::ranges::find(names, layer_of(channel)) == names.end()) {
-            names.emplace_back(layer_of(channel));
-        }
-    }
-    return names;
+    return core::layer_names(image.channels);
 }
 
 Image layer(const Image& image, std::string_view name) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -37,7 +38,7 @@ TEST_F(Diff, JsonHasTheFiguresOfEveryCommonLayer) {
     EXPECT_EQ(json["width"], 20);
     EXPECT_EQ(json["height"], 10);
     ASSERT_EQ(json["layers"].size(), 2u);
-    EXPECT_EQ(json["layers"][0]["layer"], "");
+    EXPECT_EQ(json["layers"][0]["layer"], "beauty");
     EXPECT_EQ(json["layers"][1]["layer"], "direct");
     for (const auto& layer : json["layers"]) {
         EXPECT_NEAR(layer["rmse"], 0.25, 1e-7);
@@ -53,6 +54,7 @@ TEST_F(Diff, TableForPeople) {
     const ProgramResult result = run_program("diff " + both_);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_NE(result.output.find("RMSE"), std::string::npos);
+    EXPECT_NE(result.output.find("\nbeauty "), std::string::npos) << "the name that --layer takes";
     EXPECT_NE(result.output.find("direct"), std::string::npos);
     EXPECT_NE(result.output.find("1.500000"), std::string::npos);
 }
@@ -65,10 +67,17 @@ TEST_F(Diff, OneLayer) {
     EXPECT_EQ(json["layers"][0]["layer"], "direct");
     const ProgramResult beauty = run_program("diff --json --layer beauty " + both_);
     ASSERT_EQ(beauty.exit_code, 0) << beauty.errors;
-    EXPECT_EQ(nlohmann::json::parse(beauty.output)["layers"][0]["layer"], "");
+    EXPECT_EQ(nlohmann::json::parse(beauty.output)["layers"][0]["layer"], "beauty");
     const ProgramResult missing = run_program("diff --json --layer extra " + both_);
     EXPECT_EQ(missing.exit_code, 3);
     EXPECT_EQ(missing.output, "");
+    EXPECT_NE(missing.errors.find("b picture.exr' has no layer 'extra'; it has beauty, direct\n"),
+              std::string::npos)
+        << missing.errors;
+    const ProgramResult unknown = run_program("diff --layer foo " + both_);
+    EXPECT_NE(unknown.errors.find("a.exr' has no layer 'foo'; it has beauty, direct, extra"),
+              std::string::npos)
+        << unknown.errors;
 }
 
 TEST_F(Diff, LayersOfOtherChannelsHaveNoFlip) {
