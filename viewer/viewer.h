@@ -23,13 +23,14 @@ namespace nearlight::viewer {
 /// memory, about 100 bytes a pixel each.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
 
-/// Throws Error(ErrorKind::out_of_memory) for a picture of more than kMaxPixels.
+/// Throws Error(ErrorKind::out_of_memory), with the setting "size", for a picture of more than kMaxPixels.
 inline void check_size(int width, int height) {
     if (std::int64_t{width} * height > kMaxPixels) {
-        throw Error(ErrorKind::out_of_memory, std::to_string(width) + "x" + std::to_string(height) +
-                                                  " pixels are too many for a window: the maximum is " +
-                                                  std::to_string(kMaxPixels >> 20) +
-                                                  " million; give a smaller --size");
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(width) + "x" + std::to_string(height) +
+                        " pixels are too many for a window: the maximum is " +
+                        std::to_string(kMaxPixels >> 20) + " million",
+                    "size");
     }
 }
 

@@ -47,6 +47,14 @@ void make_folder(const std::filesystem::path& folder) {
     }
 }
 
+std::string missing_folder_text(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code ignored;
+    return std::filesystem::is_directory(folder, ignored)
+               ? std::string()
+               : "there is no folder '" + folder.string() + "'; create it first";
+}
+
 void write_parts(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts) {
     AtomicFile result(file);
     std::ofstream stream(result.temporary(), std::ios::binary);

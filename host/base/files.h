@@ -14,6 +14,8 @@ namespace nearlight::core {
 std::string lower_case_extension(const std::filesystem::path& file);
 /// Makes a folder and the missing folders above it. Throws Error(ErrorKind::file).
 void make_folder(const std::filesystem::path& folder);
+/// What is to be said if the folder of a file is not there; empty if it is.
+std::string missing_folder_text(const std::filesystem::path& file);
 /// Replaces the whole file, by the parts one after another. After a failure the old file is still there.
 /// Throws Error(ErrorKind::file).
 void write_parts(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts);

@@ -37,6 +37,10 @@ std::string option_of(std::string_view setting) {
 }
 
 std::string advice(const Error& error) {
+    const bool lacks_memory = error.kind() == ErrorKind::out_of_memory;
+    if (lacks_memory && error.setting() == "size") {
+        return "use a smaller --size";
+    }
     const auto found = std::ranges::find(kAdvice, error.setting(), &SettingAdvice::setting);
     if (found != kAdvice.end()) {
         return std::string(found->text);
@@ -44,7 +48,7 @@ std::string advice(const Error& error) {
     if (!error.setting().empty()) {
         return "see " + option_of(error.setting());
     }
-    return error.kind() == ErrorKind::out_of_memory ? "use a smaller --size, --spp or scene" : "";
+    return lacks_memory ? "use a smaller --size, --spp or scene" : "";
 }
 
 }  // namespace

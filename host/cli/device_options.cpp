@@ -21,12 +21,24 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
         ->type_name("DIR");
     command
         .add_option("--cache-dir", choice.options.cache_dir,
-                    "Folder for compiled kernels, trees and tunables (default: ~/.cache/nearlight); `none` "
-                    "keeps nothing")
+                    "Folder for compiled kernels, trees and tunables; `none` keeps nothing. The default is "
+                    "$NEARLIGHT_CACHE_DIR, or else nearlight in $XDG_CACHE_HOME, or else "
+                    "~/.cache/nearlight")
         ->type_name("DIR");
 }
 
+void warn_of_cache_file(const DeviceChoice& choice) {
+    const std::filesystem::path& given = choice.options.cache_dir;
+    const std::filesystem::path folder = given.empty() ? default_cache_dir() : given;
+    std::error_code ignored;
+    if (given != "none" && std::filesystem::exists(folder, ignored) &&
+        !std::filesystem::is_directory(folder, ignored)) {
+        spdlog::warn("'{}' is no folder, so nothing is kept; see --cache-dir", folder.string());
+    }
+}
+
 DeviceChoice with_compile_workers(DeviceChoice choice) {
+    warn_of_cache_file(choice);
     set_driver_defaults();
     choice.options.compiler = std::make_shared<ProgramCompiler>(start_compile_workers());
     return choice;

@@ -19,7 +19,11 @@ struct DeviceChoice {
 /// Adds --device, --kernel-dir and --cache-dir.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
+/// Warns if a file stands where the cache folder should be, because nothing is kept then.
+void warn_of_cache_file(const DeviceChoice& choice);
+
 /// The choice with a compiler that has its own processes, for which the environment that drivers read is set.
+/// Does what warn_of_cache_file() does.
 /// They must be started before the command has threads or loads a driver, so a command calls this first.
 DeviceChoice with_compile_workers(DeviceChoice choice);
 

@@ -167,11 +167,10 @@ void check_writable(const std::string& file) {
     namespace fs = std::filesystem;
     const fs::path parent = fs::path(file).parent_path();
     const fs::path folder = parent.empty() ? fs::path(".") : parent;
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) {
-        throw Error(ErrorKind::file, "cannot write '" + file + "': there is no folder '" + folder.string() +
-                                         "'; create it first");
+    if (const std::string missing = missing_folder_text(file); !missing.empty()) {
+        throw Error(ErrorKind::file, "cannot write '" + file + "': " + missing);
     }
+    std::error_code error;
     if (fs::is_directory(file, error)) {
         throw Error(ErrorKind::file, "cannot write '" + file + "': it is a folder; give a file");
     }

@@ -36,7 +36,8 @@ void check_request(const Scene& scene, const RenderSettings& settings) {
     if (std::int64_t{width} * height > kMaxPixels) {
         throw Error(ErrorKind::out_of_memory,
                     fmt::format("{}x{} pixels are too many: the maximum is {} million", width, height,
-                                kMaxPixels >> 20));
+                                kMaxPixels >> 20),
+                    "size");
     }
     static_cast<void>(window_in(scene, settings));
     if (settings.sampling.vpl_count == 0 && settings.sampling.file.empty()) {

@@ -17,6 +17,7 @@
 #include "host/cli/method_options.h"
 #include "host/cli/output.h"
 #include "host/cli/override_options.h"
+#include "host/cli/picture_files.h"
 #include "host/cli/scene_options.h"
 #include "host/cli/screen_options.h"
 #include "host/cli/tev_picture.h"
@@ -206,6 +207,10 @@ ExitCode run_view(const ViewOptions& options, const GlobalOptions& global) {
     if (const std::string reason = reason_not_to_read(task.scene); !reason.empty()) {
         throw Error(ErrorKind::file, fmt::format("cannot read scene '{}': {}", task.scene.string(), reason));
     }
+    if (!options.screenshot.empty()) {
+        check_writable(options.screenshot);
+    }
+    warn_of_cache_file(options.device);
     const viewer::RunViewer run = load_viewer();
     catch_interrupts();
     const viewer::ViewerReport report = run(task);

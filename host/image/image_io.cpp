@@ -138,7 +138,9 @@ ImageWriter::State::~State() {
 void ImageWriter::State::open(const std::vector<std::string>& channels, const ImageWriterOptions& options) {
     stream = std::fopen(file.temporary().c_str(), "wb");
     if (stream == nullptr) {
-        fail_to_write(std::strerror(errno));
+        const int error = errno;
+        const std::string missing = missing_folder_text(file.target());
+        fail_to_write(missing.empty() ? std::strerror(error) : missing);
     }
     task = {.stream = stream,
             .name = file.target().string(),

@@ -20,6 +20,8 @@ TEST(Advice, NamesTheOptionOfASetting) {
 TEST(Advice, LessMemoryIsASmallerPicture) {
     EXPECT_EQ(with_advice(Error(ErrorKind::out_of_memory, "no room")),
               "no room; use a smaller --size, --spp or scene");
+    EXPECT_EQ(with_advice(Error(ErrorKind::out_of_memory, "too many pixels", "size")),
+              "too many pixels; use a smaller --size");
 }
 
 TEST(Advice, IsLeftOutWhereNoOptionHelps) {

@@ -173,6 +173,15 @@ TEST_F(BadInputOnDevice, ScenesInWhichThereIsNothingToSee) {
                    "the camera sees no diffuse surface");
 }
 
+TEST_F(BadInputOnDevice, AFileIsNoCacheFolder) {
+    const std::filesystem::path file = write("cache", "");
+    const ProgramResult result =
+        run_program("bench sort --repeats 1 --count 1000 --cache-dir " + quoted(file));
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(count(result.errors, "cache' is no folder, so nothing is kept; see --cache-dir"), 1u)
+        << result.errors;
+}
+
 TEST_F(BadInputOnDevice, MissingTextureIsGrey) {
     const std::string textured =
         "<bsdf type='diffuse' id='white'><texture name='reflectance' type='bitmap'>"
@@ -304,7 +313,7 @@ TEST_F(BadInputOnDevice, BrokenKernel) {
 }
 
 TEST_F(BadInputOnDevice, MoreThanMemoryHolds) {
-    expect_error(render(good_scene(), "--size 65536x65536"), 6, "use a smaller --size");
+    expect_error(render(good_scene(), "--size 65536x65536"), 6, "1024 million; use a smaller --size\n");
     // This is one GiB, which a device that is not PoCL's may have.
     const ProgramResult result =
         render(good_scene(), "--vpls 4000000 --direct-samples 1", "POCL_MEMORY_LIMIT=1");

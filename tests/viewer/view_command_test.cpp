@@ -38,7 +38,11 @@ TEST(ViewCommand, MistakesAreToldBeforeAWindowOpens) {
     expect_error(run_program("view nosuch.xml", kWithoutDisplay), 3, "nosuch.xml");
     expect_error(run_program("view " + kFloor + " --layer nosuch", kWithoutDisplay), 2, "beauty, direct");
     expect_error(run_program("view " + kFloor + " --range far", kWithoutDisplay), 2, "--range");
-    expect_error(run_program("view " + kFloor + " --size 65536x65536", kWithoutDisplay), 6, "million");
+    expect_error(run_program("view " + kFloor + " --size 65536x65536", kWithoutDisplay), 6,
+                 "32 million; use a smaller --size\n");
+    expect_error(
+        run_program("view " + kFloor + " --until-samples 1 --screenshot nosuch/window.png", kWithoutDisplay),
+        3, "there is no folder 'nosuch'; create it first");
 }
 
 TEST(ViewCommand, TheSizeOfTheSceneItselfIsLimitedToo) {
