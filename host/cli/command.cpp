@@ -41,6 +41,9 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
+/// The heading above commands in --help.
+constexpr const char* kCommandGroup = "Commands";
+
 /// What other renderers call an option.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOthersNames{
     {{"--width", "--size"},
@@ -113,10 +116,13 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app, const CL
                shell_word(extras.front());
     }
     if (!extras.empty() && !command_names(command).empty()) {
-        return unknown(&command == &app ? "command" : "part", extras.front(), command_names(command));
+        return unknown("command", extras.front(), command_names(command));
     }
     if (!extras.empty()) {
         return "unexpected argument '" + extras.front() + "'";
+    }
+    if (std::string_view(error.what()) == "A subcommand is required") {
+        return full_name(command) + " needs one of these commands: " + joined(command_names(command), ", ");
     }
     return reworded(error.what());
 }
@@ -173,7 +179,7 @@ CLI::App& CommandLine::add_command(const std::string& name, const std::string& d
 }
 
 CLI::App& CommandLine::add_command_group(const std::string& name, const std::string& description) {
-    CLI::App& group = *app_.add_subcommand(name, description);
+    CLI::App& group = *app_.add_subcommand(name, description)->group(kCommandGroup);
     add_global_options(group, global_);
     group.require_subcommand(1);
     return group;
@@ -181,7 +187,7 @@ CLI::App& CommandLine::add_command_group(const std::string& name, const std::str
 
 CLI::App& CommandLine::add_part(CLI::App& group, const std::string& part, const std::string& description,
                                 Run run) {
-    CLI::App& command = *group.add_subcommand(part, description);
+    CLI::App& command = *group.add_subcommand(part, description)->group(kCommandGroup);
     add_global_options(command, global_);
     command.callback([this, run = std::move(run)] { run_ = run; });
     return command;

@@ -191,9 +191,6 @@ std::string text_film(const SceneCamera& camera) {
         text += fmt::format(", {:.4g} of the film's width around ({:.4g}, {:.4g})", camera.film_part,
                             camera.center_x, camera.center_y);
     }
-    if (camera.near_clip > 0.0 || std::isfinite(camera.far_clip)) {
-        text += fmt::format(", from {:g} to {:g}", camera.near_clip, camera.far_clip);
-    }
     text += camera.hide_emitters ? ", emitters hidden" : "";
     return text + (camera.is_monochrome ? ", luminance only" : "");
 }
@@ -209,6 +206,14 @@ std::string text_lens(const SceneCamera& camera) {
     return camera.aperture_radius > 0.0 ? fmt::format("{}, lens of radius {:g} in focus at {:g}", angle,
                                                       camera.aperture_radius, camera.focus_distance)
                                         : angle;
+}
+
+/// From where to where the camera sees; empty if it sees everything.
+std::string text_clip(const SceneCamera& camera) {
+    if (std::isfinite(camera.far_clip)) {
+        return fmt::format(", clips from {:g} to {:g} m", camera.near_clip, camera.far_clip);
+    }
+    return camera.near_clip > 0.0 ? fmt::format(", clips from {:g} m", camera.near_clip) : "";
 }
 
 Json json_notes(const Scene& scene) {
@@ -345,9 +350,9 @@ std::string scene_summary_text(const Scene& scene) {
                                      lights.triangles, lights.spheres, lights.cylinders,
                                      text_environment(scene.environment), lights.power)) +
            row("camera",
-               fmt::format("{}, {}x{}, {}, at {} towards {}", kind_of(scene.camera), scene.camera.width,
+               fmt::format("{}, {}x{}, {}, at {} towards {}{}", kind_of(scene.camera), scene.camera.width,
                            scene.camera.height, text_lens(scene.camera), text_vector(camera_position(scene)),
-                           text_vector(camera_direction(scene)))) +
+                           text_vector(camera_direction(scene)), text_clip(scene.camera))) +
            row("film", text_film(scene.camera)) + row("max depth", std::to_string(scene.max_depth)) +
            row("samples", text_samples(scene.samples_per_pixel)) + text_animations(scene) +
            row("host", text_parts(memory.host)) + row("device", text_parts(memory.device)) +

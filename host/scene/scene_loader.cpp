@@ -72,7 +72,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
         throw Error(ErrorKind::file, file.string() + ": no such scene file");
     }
     if (std::filesystem::is_directory(file, ignored)) {
-        throw Error(ErrorKind::file, file.string() + ": is a directory; give the scene file in it");
+        throw Error(ErrorKind::file, file.string() + ": is a folder; give the scene file in it");
     }
     const std::string extension = lower_case_extension(file);
     const auto loader = std::ranges::find(kLoaders, extension, &Loader::extension);

@@ -102,7 +102,7 @@ TEST_F(BadInput, BrokenXml) {
                  "tags.xml:1: broken XML");
     expect_error(render(write_scene("<shape type='nosuch'/>\n")), 3, "scene.xml:3: unknown shape 'nosuch'");
     expect_error(render(write("scene.abc", "")), 3, "unknown scene format");
-    expect_error(render(folder_.path()), 3, "is a directory");
+    expect_error(render(folder_.path()), 3, "is a folder; give the scene file in it");
 }
 
 TEST_F(BadInput, BrokenMeshes) {

@@ -149,10 +149,10 @@ TEST(BenchSort, RatiosToOtherSorts) {
     EXPECT_GT(json["ratios"][1]["wall"], 0.0);
 }
 
-TEST(Bench, NamesItsParts) {
+TEST(Bench, NamesItsCommands) {
     const ProgramResult unknown = run_program("bench gathr");
     EXPECT_EQ(unknown.exit_code, 2);
-    EXPECT_NE(unknown.errors.find("unknown part 'gathr', did you mean 'gather'?"), std::string::npos)
+    EXPECT_NE(unknown.errors.find("unknown command 'gathr', did you mean 'gather'?"), std::string::npos)
         << unknown.errors;
     EXPECT_NE(unknown.errors.find("nearlight bench --help"), std::string::npos) << unknown.errors;
     EXPECT_EQ(run_program("bench").exit_code, 2);

@@ -75,6 +75,9 @@ TEST(CommandLine, HelpShowsWhatStandsForAValue) {
     EXPECT_TRUE(contains(help, "--frames A[:B] "));
     EXPECT_TRUE(contains(help, "--vpls N [1000] "));
     EXPECT_TRUE(contains(help, "--denoise   "));
+    const std::string commands = run_program("--help").output;
+    EXPECT_TRUE(contains(commands, "Usage: nearlight [OPTIONS] [COMMAND]\n")) << commands;
+    EXPECT_TRUE(contains(commands, "\nCommands:\n  render ")) << commands;
 }
 
 TEST(CommandLine, WithoutCommandItTellsTheCommands) {
@@ -101,6 +104,8 @@ TEST(CommandLine, TyposGetSuggestions) {
 TEST(CommandLine, WrongLinesAreUsageErrors) {
     expect_error(run_program("diff a"), 2, "B is required");
     expect_error(run_program("diff a b c"), 2, "unexpected argument 'c'");
+    expect_error(run_program("bench"), 2,
+                 "nearlight bench needs one of these commands: build, gather, sort, trace; see");
     expect_error(run_program("diff a b --layer"), 2, "--layer needs a value, ");
     expect_error(run_program("render a.xml --size"), 2,
                  "--size needs a value, WxH; see 'nearlight render --help'");

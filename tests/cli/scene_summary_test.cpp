@@ -105,6 +105,17 @@ TEST(SceneSummary, TextTellsTheSame) {
     }
 }
 
+TEST(SceneSummary, TextTellsWhereTheCameraClips) {
+    Scene scene = one_lamp();
+    EXPECT_EQ(scene_summary_text(scene).find("clips"), std::string::npos) << "it sees everything";
+    scene.camera.near_clip = 0.01;
+    EXPECT_NE(scene_summary_text(scene).find(", clips from 0.01 m\n"), std::string::npos)
+        << scene_summary_text(scene);
+    scene.camera.far_clip = 10000;
+    EXPECT_NE(scene_summary_text(scene).find(", clips from 0.01 to 10000 m\n"), std::string::npos)
+        << scene_summary_text(scene);
+}
+
 TEST(SceneSummary, AnimationsAndWhatTheyMove) {
     Scene scene = one_lamp();
     EXPECT_EQ(scene_summary_json(scene)["animations"].dump(), "[]");
