@@ -21,9 +21,8 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
         ->type_name("DIR");
     command
         .add_option("--cache-dir", choice.options.cache_dir,
-                    "Folder for compiled kernels, trees and tunables; `none` keeps nothing. The default is "
-                    "$NEARLIGHT_CACHE_DIR, or else nearlight in $XDG_CACHE_HOME, or else "
-                    "~/.cache/nearlight")
+                    std::string("Folder for compiled kernels, trees and tunables; `none` keeps nothing. ") +
+                        kDefaultCacheText)
         ->type_name("DIR");
 }
 

@@ -11,6 +11,10 @@
 
 namespace nearlight::core {
 
+/// What help says of the cache folder; see default_cache_dir().
+inline constexpr const char* kDefaultCacheText =
+    "The default is $NEARLIGHT_CACHE_DIR, or else nearlight in $XDG_CACHE_HOME, or else ~/.cache/nearlight";
+
 struct DeviceChoice {
     std::string device;  ///< see choose_devices()
     DeviceOptions options;

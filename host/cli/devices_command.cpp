@@ -7,6 +7,7 @@
 #include "host/cl/device.h"
 #include "host/cl/devices/device_list.h"
 #include "host/cl/devices/registered_drivers.h"
+#include "host/cli/device_options.h"
 #include "host/cli/log.h"
 #include "host/cli/output.h"
 #include "host/cli/tunables_output.h"
@@ -114,7 +115,7 @@ void add_devices_command(CommandLine& line) {
         ->type_name("DEVICE");
     command
         .add_option("--cache-dir", options->cache_dir,
-                    "Folder where `nearlight tune` keeps tunables (default: ~/.cache/nearlight)")
+                    std::string("Folder where `nearlight tune` keeps tunables. ") + kDefaultCacheText)
         ->type_name("DIR");
 }
 

@@ -69,7 +69,7 @@ void add_override_options(CLI::App& command, SceneOptions& options) {
         .add_option(
             "--environment", overrides.environment,
             "Environment in place of the scene's: an image file (latitude-longitude), sky (a clear sky), "
-            "or a colour as R,G,B or #rrggbb")
+            "or an even colour as R,G,B, one number for grey, or #rrggbb")
         ->type_name("FILE|sky|COLOR");
     command
         .add_option("--environment-rotation", overrides.environment_rotation,

@@ -14,17 +14,18 @@ std::optional<float> exposure_of(const std::string& text) {
 
 }  // namespace
 
-void add_screen_options(CLI::App& command, ScreenOptions& options) {
+void add_screen_options(CLI::App& command, ScreenOptions& options, const std::string& what) {
     command
-        .add_option(
-            "--exposure", options.exposure,
-            "Exposure of PNG pictures, in stops, or auto, which looks at the light on the surfaces seen "
-            "(default: 0 for Mitsuba's scenes, otherwise auto)")
+        .add_option("--exposure", options.exposure,
+                    "Exposure of " + what +
+                        ", in stops, or auto, which looks at the light on the surfaces seen "
+                        "(default: 0 for Mitsuba's scenes, otherwise auto)")
         ->type_name("EV|auto");
     add_choice<ToneCurve>(
         command, "--tonemap", options.curve, {kToneCurves.begin(), kToneCurves.end()},
-        "Tone curve of PNG pictures: neutral (keeps colours), agx (a photograph's), filmic (strong contrast) "
-        "or linear (clips); EXR stays linear (default: linear for Mitsuba's scenes, otherwise neutral)");
+        "Tone curve of " + what +
+            ": neutral (keeps colours), agx (a photograph's), filmic (strong contrast) "
+            "or linear (clips); EXR stays linear (default: linear for Mitsuba's scenes, otherwise neutral)");
 }
 
 void check_screen_options(const ScreenOptions& options) {

@@ -22,8 +22,8 @@ struct ScreenLook {
     std::optional<float> exposure = 0.0f;  ///< stops; empty: automatic, by the finished picture
 };
 
-/// Adds --exposure and --tonemap.
-void add_screen_options(CLI::App& command, ScreenOptions& options);
+/// Adds --exposure and --tonemap, which decide how `what` looks.
+void add_screen_options(CLI::App& command, ScreenOptions& options, const std::string& what = "PNG pictures");
 
 /// Throws Error(ErrorKind::invalid_argument) if the exposure is neither a number nor "auto".
 void check_screen_options(const ScreenOptions& options);

@@ -272,7 +272,7 @@ void add_view_command(CommandLine& line) {
     add_scene_options(command, options->scene);
     add_glass_option(command, options->scene.clear_glass);
     add_scene_size_option(command, options->size);
-    add_screen_options(command, options->screen);
+    add_screen_options(command, options->screen, "the window and of PNG pictures");
     add_window_options(command, *options);
     add_tev_option(command, options->tev);
     add_sample_options(command, options->settings.gather, Pilot::is_left_out);

@@ -184,7 +184,8 @@ struct FieldsOf<LoadOptions> {
         Field{"up", &LoadOptions::up, "what points upwards in the picture"},
         Field{"fov_x_degrees", &LoadOptions::fov_x_degrees, "horizontal, degrees"},
         Field{"environment", &LoadOptions::environment,
-              "an image file, 'sky', or a colour as 'R,G,B' or '#rrggbb'; '': the scene's own"},
+              "an image file, 'sky', or a colour as 'R,G,B', '0.5' for grey, or '#rrggbb'; '': the scene's "
+              "own"},
         Field{"environment_rotation", &LoadOptions::environment_rotation, "degrees about +Y"},
         Field{"environment_scale", &LoadOptions::environment_scale, "multiplies the environment's light"},
         Field{"sun", &LoadOptions::sun, "a SunPosition, where to add a sun"},

@@ -75,6 +75,9 @@ TEST(CommandLine, HelpShowsWhatStandsForAValue) {
     EXPECT_TRUE(contains(help, "--frames A[:B] "));
     EXPECT_TRUE(contains(help, "--vpls N [1000] "));
     EXPECT_TRUE(contains(help, "--denoise   "));
+    EXPECT_TRUE(contains(help, " $XDG_CACHE_HOME,")) << "where kernels are kept by default";
+    EXPECT_TRUE(contains(run_program("reference --help").output, "--threads N [0] "));
+    EXPECT_TRUE(contains(run_program("view --help").output, " Exposure of the window and of PNG pictures,"));
     const std::string commands = run_program("--help").output;
     EXPECT_TRUE(contains(commands, "Usage: nearlight [OPTIONS] [COMMAND]\n")) << commands;
     EXPECT_TRUE(contains(commands, "\nCommands:\n  render ")) << commands;
