@@ -54,7 +54,7 @@ constexpr std::array kAttributeOptions{AttributeOption{"nearlight:clampRadius", 
                                        AttributeOption{"nearlight:seed", "--seed"}};
 
 /// How the stored value of an attribute differs from the one that is wanted, in words.
-std::string difference(const std::string& name, const std::string& stored, const std::string& wanted) {
+std::string difference_text(const std::string& name, const std::string& stored, const std::string& wanted) {
     const auto* const option = std::ranges::find(kAttributeOptions, name, &AttributeOption::attribute);
     if (option == kAttributeOptions.end()) {
         return name == kSceneAttribute ? "it has another scene, camera, --filter or --glass"
@@ -74,7 +74,7 @@ std::vector<std::string> differences(const Metadata& stored, const Metadata& wan
         if (other == stored.end()) {
             found.push_back("its " + name + " is missing");
         } else if (other->second != value) {
-            found.push_back(difference(name, to_text(other->second), to_text(value)));
+            found.push_back(difference_text(name, to_text(other->second), to_text(value)));
         }
     }
     return found;
