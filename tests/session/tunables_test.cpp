@@ -2,6 +2,7 @@
 // Tunables affect the speed of a render, but not the picture.
 #include <gtest/gtest.h>
 
+#include "tests/session/corner_scene.h"
 #include "tests/session/rendering.h"
 #include "tests/support/device_fixture.h"
 #include "tests/support/small_scenes.h"
@@ -11,14 +12,15 @@ namespace {
 
 using namespace small_scenes;
 
-/// A floor, a step above it and a sky.
-Scene step() {
-    Scene scene;
+/// A corner with copper, and a veil in it: all kernels that the defaults need have work.
+Scene veiled_corner() {
+    Scene scene = test::corner();
+    Material copper = conductor_material({0.2f, 0.92f, 1.1f}, {3.9f, 2.45f, 2.1f});
+    copper.roughness = parameter_of(0.3f);
+    add_quad(scene, {0.2f, -0.5f, 0.2f}, {0, 0, 0.5f}, {0.5f, 0, 0}, add_material(scene, copper));
     const uint grey = add_material(scene, lambertian({0.6f, 0.5f, 0.4f}));
-    add_quad(scene, {-2, -1, -2}, {0, 0, 4}, {4, 0, 0}, grey);
-    add_quad(scene, {-1, -0.5f, 0}, {0, 0, 1}, {1, 0, 0}, grey);
-    scene.environment = {.width = 1, .height = 1, .radiance = {{0.3f, 0.4f, 0.5f}}, .to_world = {}};
-    set_camera(scene, {0.1, 0.6, -1.9}, {0, -0.5, 1}, 70);
+    const uint veil = add_material(scene, mask_material(parameter_of(0.4f), grey));
+    add_quad(scene, {-0.3f, -0.9f, 0.0f}, {0, 1.2f, 0}, {0.9f, 0, -0.3f}, veil);
     scene.camera.width = 60;
     scene.camera.height = 40;
     return scene;
@@ -49,10 +51,11 @@ TEST_F(TunablesTest, NoneChangesABitOfThePicture) {
             RenderSettings settings = test::few_vpls(sampler);
             settings.gather.roulette = sampler == SamplerKind::close_range ? 1.0f : 0.0f;
             device.set_tunables(shared.tunables());
-            const std::uint64_t usual = test::render_image(device, step(), settings).report.image_hash;
+            const std::uint64_t usual =
+                test::render_image(device, veiled_corner(), settings).report.image_hash;
             for (const auto& [name, tunables] : extremes(shared.tunables())) {
                 device.set_tunables(tunables);
-                EXPECT_EQ(test::render_image(device, step(), settings).report.image_hash, usual)
+                EXPECT_EQ(test::render_image(device, veiled_corner(), settings).report.image_hash, usual)
                     << to_string(sampler) << ", " << name;
             }
         }

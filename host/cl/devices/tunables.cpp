@@ -18,7 +18,7 @@ constexpr std::array kFields{
     TunableField{"shortest_sort_run", &Tunables::shortest_sort_run, 16, 1u << 20u, false},
     TunableField{"roulette_run", &Tunables::roulette_run, 1, 4096, false},
     TunableField{"launch_bundles", &Tunables::launch_bundles, 1, 1u << 20u, false},
-    TunableField{"launch_items", &Tunables::launch_items, 64, ~0u, false},
+    TunableField{"launch_items", &Tunables::launch_items, 1, ~0u, false},
     TunableField{"launch_ms", &Tunables::launch_ms, 1, 2000, false},
     TunableField{"batch_receivers", &Tunables::batch_receivers, 1u << 10u, 1u << 24u, false},
 };
