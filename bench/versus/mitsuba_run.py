@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Renders one picture with Mitsuba 3: mitsuba_run.py '{"scene", "variant", "width", "height", "spp", "seed", "denoise", "out"}'.
+"""Renders one picture with Mitsuba 3: mitsuba_run.py '{"scene", "variant", "width", "height", "spp", "seed", "denoise", "box_filter", "out"}'.
 
 Writes the picture as an array of RGB to the file "out" and prints the seconds of its steps as one JSON object.
 """
@@ -15,7 +15,7 @@ SAMPLES_A_PASS = 64      # the LLVM variants keep all rays of a pass in memory
 
 
 def loaded(mi, request):
-    scene = mitsuba_scene.loaded(mi, request['scene'])
+    scene = mitsuba_scene.loaded(mi, request['scene'], request['box_filter'])
     parameters = mi.traverse(scene)
     size, = (name for name in parameters.keys() if name.endswith('film.size'))
     parameters[size] = [request['width'], request['height']]

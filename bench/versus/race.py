@@ -38,12 +38,17 @@ class Race:
         """All results of a scene as plain values. Renderers that cannot read it are left out, with a line that says why."""
         renderers, notes = self._able(path, size, tell)
         halves = self._halves(renderers, path, size, tell)
-        truths = {limit: self._truth(limit, renderers, halves, key_of(path, size)) for limit in {r.limit for r in renderers}}
+        key = key_of(path, size)
+        truths = {limit: self._truth(limit, [halves[f] for f in dict.fromkeys(r.family for r in renderers if r.limit == limit)], key)
+                  for limit in {r.limit for r in renderers}}
+        if True in self.denoise:
+            truths |= self._denoised_truths(renderers, path, size, key, tell)
         curves = []
         for renderer in renderers:
             for denoise in self.denoise:
                 tell(f'{renderer.label}{", denoised" if denoise else ""}')
-                points = self._points(renderer, path, size, denoise, truths[renderer.limit], tell)
+                truth = truths[renderer.denoised_limit if denoise else renderer.limit]
+                points = self._points(renderer, path, size, denoise, truth, tell)
                 curves.append({'renderer': renderer.label, 'denoised': denoise, 'points': points})
         names = list(halves)
         agreement = [dict(zip(('ratio', 'error'), map(float, measures.mean_ratio(halves[names[0]], halves[other]))),
@@ -70,13 +75,26 @@ class Race:
         halves = {}
         for renderer in {r.family: r for r in reversed(renderers)}.values():
             tell(f'{renderer.label}: converged picture')
-            work = self.truth_work[0 if renderer is self.nearlight else 1]
-            halves[renderer.family] = [self._kept(renderer, Task(path, size, work, seed))[0] for seed in TRUTH_SEEDS]
+            halves[renderer.family] = self._converged(renderer, path, size, False)
         return dict(sorted(halves.items(), key=lambda item: item[0] != self.nearlight.family))
 
-    def _truth(self, limit, renderers, halves, key):
-        families = dict.fromkeys(r.family for r in renderers if r.limit == limit)
-        picture, variance = measures.combined([halves[family] for family in families])
+    def _converged(self, renderer, path, size, box_filter):
+        work = self.truth_work[0 if renderer is self.nearlight else 1]
+        return [self._kept(renderer, Task(path, size, work, seed, box_filter=box_filter))[0] for seed in TRUTH_SEEDS]
+
+    def _denoised_truths(self, renderers, path, size, key, tell):
+        """The limits of denoised pictures that others do not have."""
+        truths = {}
+        for renderer in renderers:
+            limit = renderer.denoised_limit
+            if limit != renderer.limit and limit not in truths:
+                tell(f'{renderer.label}: converged picture, {limit}')
+                truths[limit] = self._truth(limit, [self._converged(renderer, path, size, True)], key)
+        return truths
+
+    def _truth(self, limit, halves, key):
+        """The mean of all halves, the less noisy ones weighing more."""
+        picture, variance = measures.combined(halves)
         file = os.path.join(self.folder, f"truth-{limit.replace(' ', '-')}-{key}.exr")
         write_exr(file, picture)
         return Truth(picture, file, float(variance))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The renderers of the race. Each makes a picture of a scene with a given amount of work and says how long that took.
 
-Renderers with the same `limit` converge to the same picture, those of one `family` by the same code.
+Renderers with the same `limit` converge to the same picture, those of one `family` by the same code. `denoised_limit` is what their denoised
+pictures are made of.
 """
 from dataclasses import dataclass
 import hashlib
@@ -57,6 +58,7 @@ class Task:
     work: int
     seed: int
     denoise: bool = False
+    box_filter: bool = False     # each pixel has noise of its own, as denoisers expect; denoised pictures have it anyway
 
 
 @dataclass
@@ -99,7 +101,7 @@ class Nearlight:
     """nearlight at its defaults. Its work is passes."""
     label = 'nearlight'
     family = 'nearlight'
-    limit = 'the scene'
+    limit = denoised_limit = 'the scene'
 
     def __init__(self, program, folder, max_seconds):
         self.program, self.folder, self.max_seconds = program, folder, max_seconds
@@ -139,6 +141,7 @@ class Mitsuba:
 
     family = 'Mitsuba 3'
     limit = 'the scene'
+    denoised_limit = 'the scene by a box filter'
 
     def __init__(self, variant, folder, max_seconds):
         self.variant, self.folder, self.max_seconds = variant, folder, max_seconds
@@ -154,7 +157,8 @@ class Mitsuba:
     def render(self, task):
         out = os.path.join(self.folder, 'mitsuba.npy')
         request = {'scene': task.scene, 'variant': self.variant, 'width': task.size[0], 'height': task.size[1],
-                   'spp': 16 * task.work, 'seed': task.seed, 'denoise': task.denoise, 'out': out}
+                   'spp': 16 * task.work, 'seed': task.seed, 'denoise': task.denoise,
+                   'box_filter': task.box_filter or task.denoise, 'out': out}
         program = [sys.executable, os.path.join(HERE, 'mitsuba_run.py'), json.dumps(request)]
         output, process, processor = timed(program, self.max_seconds)
         seconds = json.loads(output.strip().splitlines()[-1])
@@ -165,7 +169,7 @@ class Cycles:
     """Blender's path tracer. Its work is 16 samples a pixel. It wants scenes in Blender's own form, with materials of which some
     differ from Mitsuba's, and it weighs samples by a filter of its own: it has a limit of its own."""
     family = 'Cycles'
-    limit = 'Cycles'
+    limit = denoised_limit = 'Cycles'
 
     def __init__(self, guided, folder, max_seconds):
         self.guided, self.folder, self.max_seconds = guided, folder, max_seconds

@@ -20,6 +20,7 @@ import numpy as np
 
 import gltf_scene
 import measures
+import mitsuba_scene
 import plots
 import race
 import report
@@ -173,6 +174,19 @@ def triangle_file(folder, **more):
     with open(file, 'w', encoding='utf-8') as out:
         json.dump(model, out)
     return file
+
+
+class Filters(unittest.TestCase):
+    def test_a_box_replaces_the_filter_of_a_film_or_its_default(self):
+        with tempfile.TemporaryDirectory(prefix='Race-') as folder:
+            file = os.path.join(folder, 'scene.xml')
+            for film in ('<film type="hdrfilm"><rfilter name="rfilter" type="tent"/><integer name="width" value="4"/></film>',
+                         '<film type="hdrfilm"/>'):
+                with open(file, 'w', encoding='utf-8') as out:
+                    out.write(f'<scene version="3.0.0"><sensor type="perspective">{film}</sensor></scene>')
+                scene = xml.etree.ElementTree.fromstring(mitsuba_scene.with_box_filters(file))
+                self.assertEqual([f.get('type') for f in scene.iter('rfilter')], ['box'])
+                self.assertEqual(len(scene.findall('sensor/film/integer')), film.count('<integer'))
 
 
 class FromGltf(unittest.TestCase):
