@@ -67,9 +67,9 @@ struct PilotLight {
 
 /// The VPLs of a launch of the pilot's gather, which launches groups whole, so that it is short.
 std::size_t pilot_group_size(std::size_t vpl_count) {
-    constexpr std::size_t kMinGroup = 256;
-    constexpr std::size_t kMaxGroups = 64;
-    return std::max(kMinGroup, divide_rounding_up(vpl_count, kMaxGroups));
+    constexpr std::size_t kMinPilotGroup = 256;
+    constexpr std::size_t kMaxPilotGroups = 64;
+    return std::max(kMinPilotGroup, divide_rounding_up(vpl_count, kMaxPilotGroups));
 }
 
 /// The sum of consecutive runs of `count` packets.
