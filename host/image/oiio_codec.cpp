@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -113,6 +114,12 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::I
     auto input = OIIO::ImageInput::create(format);
     if (!input) {
         fail_image("cannot read image", file, OIIO::geterror());
+    }
+    // OpenImageIO 2.4 fills a table of ICC tags at the first JPEG with a profile, and takes no lock for it.
+    static std::mutex jpeg_heads;
+    std::unique_lock<std::mutex> one_at_a_time(jpeg_heads, std::defer_lock);
+    if (format == "jpeg") {
+        one_at_a_time.lock();
     }
     OIIO::ImageSpec spec;
     if ((memory != nullptr && !input->set_ioproxy(memory)) || !input->open(file.string(), spec, options)) {
