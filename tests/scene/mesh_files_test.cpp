@@ -208,7 +208,7 @@ TEST(Obj, GetsACameraThatSeesEverythingAndALight) {
 TEST(Obj, MissingAndEmptyFiles) {
     const SceneFiles files;
     EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("no.obj")); }), "no such"));
-    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("")); }), "directory"));
+    EXPECT_TRUE(mentions(file_error([&] { load_scene(files.path("")); }), "folder"));
     EXPECT_TRUE(mentions(file_error([&] { load_scene(files.write("a.fbx", "x")); }), "unknown scene format"));
     for (const char* const text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n"}) {
         EXPECT_TRUE(mentions(file_error([&] { load_obj(files, text); }), "no triangles")) << text;
