@@ -14,7 +14,8 @@ namespace nearlight::core {
 class LayeredMaterials {
   public:
     /// A white material with the index of the layers, whose curve is added to the scene. It is for the caller
-    /// to set all else; `layers` has the means of what will have a texture.
+    /// to set all else. Of what will have a texture, `layers` has the smallest roughness, because smooth
+    /// facets reflect most and no point may reflect more than it gets, and the means of all else.
     Material of(Scene& scene, const Layers& layers);
 
   private:

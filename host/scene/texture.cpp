@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/half.h"
 
@@ -79,13 +80,23 @@ Vec3 mean_color(const TextureImage& image, const Texture& texture) {
             static_cast<float>(sum[2] * scale)};
 }
 
-Vec3 max_color(const TextureImage& image, const Texture& texture) {
+/// combined(c, …) of all texels' colours, beginning with `start`.
+template <typename Combine>
+Vec3 over_texels(const TextureImage& image, const Texture& texture, Vec3 start, const Combine& combined) {
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    Vec3 largest{0, 0, 0};
     for (std::size_t i = 0; i < count; ++i) {
-        largest = max(largest, cut_off(texel_color(image, i), texture));
+        start = combined(start, cut_off(texel_color(image, i), texture));
     }
-    return largest;
+    return start;
+}
+
+Vec3 min_color(const TextureImage& image, const Texture& texture) {
+    constexpr float kMax = std::numeric_limits<float>::max();
+    return over_texels(image, texture, {kMax, kMax, kMax}, [](Vec3 a, Vec3 b) { return min(a, b); });
+}
+
+Vec3 max_color(const TextureImage& image, const Texture& texture) {
+    return over_texels(image, texture, {0, 0, 0}, [](Vec3 a, Vec3 b) { return max(a, b); });
 }
 
 /// A parameter's value times what `of_checkerboard` makes of two fields or `of_image` of a bitmap.
@@ -184,6 +195,13 @@ Vec3 mean_value(const Scene& scene, const Parameter& parameter) {
         return (mean_value(scene, a) + mean_value(scene, b)) * 0.5f;
     };
     return summary(scene, parameter, mean_of_fields, mean_color);
+}
+
+Vec3 min_value(const Scene& scene, const Parameter& parameter) {
+    const auto min_of_fields = [&](const Parameter& a, const Parameter& b) {
+        return min(min_value(scene, a), min_value(scene, b));
+    };
+    return summary(scene, parameter, min_of_fields, min_color);
 }
 
 Vec3 max_value(const Scene& scene, const Parameter& parameter) {

@@ -36,8 +36,9 @@ Vec3 texture_color(const Scene& scene, const SceneTexture& texture, float u, flo
 
 /// An estimate of the mean of a parameter over its textures, where the vertices' colours count as white.
 Vec3 mean_value(const Scene& scene, const Parameter& parameter);
-/// The largest value of each channel of a parameter over its textures, where the vertices' colours count as
-/// white.
+/// The smallest and the largest value of each channel of a parameter over its textures, where the vertices'
+/// colours count as white.
+Vec3 min_value(const Scene& scene, const Parameter& parameter);
 Vec3 max_value(const Scene& scene, const Parameter& parameter);
 
 }  // namespace nearlight::core

@@ -86,7 +86,7 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     }
     Material material =
         layered_.of(scene_, {.eta = surface.index,
-                             .roughness = static_cast<double>(mean_value(scene_, surface.roughness).x),
+                             .roughness = static_cast<double>(min_value(scene_, surface.roughness).x),
                              .clearcoat = static_cast<double>(mean_value(scene_, surface.clearcoat).x),
                              .sheen = static_cast<double>(mean_value(scene_, surface.sheen).x)});
     material.reflectance = surface.color;

@@ -167,7 +167,7 @@ class ObjMaterials {
     Material layered(const tinyobj::material_t& entry, const Parameter& roughness) {
         Material material = layered_.of(
             scene_,
-            {.eta = index_of(entry), .roughness = static_cast<double>(mean_value(scene_, roughness).x)});
+            {.eta = index_of(entry), .roughness = static_cast<double>(min_value(scene_, roughness).x)});
         material.roughness = roughness;
         return material;
     }
