@@ -52,8 +52,8 @@ void add_glass_option(CLI::App& command, bool& clear_glass) {
         command, "--glass", {"refract", "clear"},
         [&clear_glass](const std::string& word) { clear_glass = word == "clear"; },
         "refract: as in Mitsuba, solid glass casts shadows and caustics, and hides point lights, spots and "
-        "directional lights as panes and masks do; clear: shadow rays of all lights go straight through "
-        "glass, panes and masks, with their transmittance")
+        "directional lights, which in Mitsuba's scenes panes and masks do, too; clear: shadow rays of all "
+        "lights go straight through glass, panes and masks, with their transmittance")
         ->default_str("refract");
 }
 

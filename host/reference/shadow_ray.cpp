@@ -10,7 +10,7 @@ namespace nearlight::core {
 
 ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 position, const LightPick& pick,
                      int max_veils, Vec3 scene_size) {
-    if (pick.is_delta && !scene.clear_glass) {
+    if (pick.is_delta && !scene.clear_glass && !scene.open_veils) {
         max_veils = 0;
     }
     max_veils = std::min(max_veils, NEARLIGHT_MAX_VEILS);

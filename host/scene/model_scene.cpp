@@ -30,6 +30,7 @@ void finish_model(Scene& scene, const LoadOptions& options, NoteSink& notes) {
         add_default_light(scene, true, notes);
     }
     scene.has_open_exposure = true;
+    scene.open_veils = true;
 }
 
 }  // namespace nearlight::core

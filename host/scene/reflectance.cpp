@@ -200,7 +200,9 @@ uint veils_of(const Scene& scene) {
     if (std::ranges::none_of(scene.materials, [&](const Material& m) { return is_veil(scene, m); })) {
         return NEARLIGHT_VEILS_NONE;
     }
-    return scene.clear_glass ? NEARLIGHT_VEILS_CLEAR : NEARLIGHT_VEILS_THIN;
+    return scene.clear_glass  ? NEARLIGHT_VEILS_CLEAR
+           : scene.open_veils ? NEARLIGHT_VEILS_OPEN
+                              : NEARLIGHT_VEILS_THIN;
 }
 
 bool lets_through(const Scene& scene, const Material& material) {

@@ -147,6 +147,9 @@ struct Scene {
     /// Light that was scattered passes smooth glass bodies straight, and veils let the light of delta lights
     /// pass too (docs/method.md, "Clear glass").
     bool clear_glass = false;
+    /// Thin panes, masks and `null` let the light of delta lights pass straight, as glTF, OBJ and PLY mean
+    /// them; in Mitsuba they block it.
+    bool open_veils = false;
     int max_depth = kUnlimitedPathDepth;  ///< Mitsuba's count (2: direct light only)
     int samples_per_pixel = 0;            ///< 0: the file does not say
     /// The file's light has no scale of its own, so that pictures for screens choose their exposure.

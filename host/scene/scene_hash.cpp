@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "host/base/hash.h"
+#include "host/scene/reflectance.h"
 #include "host/scene/scene.h"
 
 namespace nearlight::core {
@@ -94,6 +95,9 @@ void add_extras(Hasher& hasher, const Scene& scene) {
     }
     if (scene.clear_glass) {
         hasher.add(true);
+    }
+    if (scene.open_veils && veils_of(scene) != NEARLIGHT_VEILS_NONE) {
+        hasher.add(false);
     }
 }
 

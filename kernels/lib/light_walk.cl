@@ -102,12 +102,12 @@ static inline BsdfSample sample_way_on(const SceneView* scene, const MetSurface*
 
 /// Sends the particle on from where it landed. Light of a point or a direction that mirrors and glass send on
 /// has no flux: no picture of a path tracer holds it, since no path from the camera can find such a light
-/// through them, and nearlight converges to the same picture. With clear glass, shadow rays find such lights
-/// straight through veils.
+/// through them, and nearlight converges to the same picture. Where veils are open or glass is clear, shadow
+/// rays find such lights straight through veils.
 OUTLINED_ON_CPU void scatter(const SceneView* scene, EmittedParticle* particle, const MetSurface* at,
                              const WalkAim* aim, float u, float2 v) {
     const BsdfSample sample = sample_way_on(scene, at, aim, u, v);
-    const bool passes = sample.is_straight && scene->info->veils == NEARLIGHT_VEILS_CLEAR;
+    const bool passes = sample.is_straight && scene->info->veils >= NEARLIGHT_VEILS_OPEN;
     const bool is_unseen = sample.is_delta && particle->from_delta && !passes;
     particle->flux = is_unseen ? (float3)(0.0f) : particle->flux * sample.weight;
     particle->direction = sample.wi;

@@ -296,8 +296,9 @@ typedef struct SceneInfo {
     uint has_sky;               // 1: there is an environment map or a sun
 } SceneInfo;
 #define NEARLIGHT_VEILS_NONE 0u   // nothing
-#define NEARLIGHT_VEILS_THIN 1u   // thin panes, masks and `null`
-#define NEARLIGHT_VEILS_CLEAR 2u  // smooth glass bodies too (--glass clear)
+#define NEARLIGHT_VEILS_THIN 1u   // thin panes, masks and `null`, but not the light of delta lights
+#define NEARLIGHT_VEILS_OPEN 2u   // thin panes, masks and `null`, and the light of delta lights too
+#define NEARLIGHT_VEILS_CLEAR 3u  // smooth glass bodies too (--glass clear)
 /// A shadow ray passes at most this many veils; rays that follow BSDFs pass any number.
 #define NEARLIGHT_MAX_VEILS 16
 

@@ -166,6 +166,7 @@ TEST_F(GltfLoader, WithoutCameraAndLightOnesAreMadeUp) {
     EXPECT_EQ(scene.notes.size(), 2u);
     EXPECT_GT(scene.environment.width, 1);
     EXPECT_TRUE(scene.has_open_exposure);
+    EXPECT_TRUE(scene.open_veils);
 }
 
 TEST_F(GltfLoader, PartsThatGlowAreNoLampsUnlessTheFileHasACamera) {

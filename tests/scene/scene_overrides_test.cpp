@@ -43,6 +43,7 @@ TEST_F(Overrides, NothingChangesWithoutThem) {
     const Scene scene = load({});
     EXPECT_EQ(scene_hash(scene), scene_hash(files_.load_xml(kScene)));
     EXPECT_FALSE(scene.has_open_exposure);
+    EXPECT_FALSE(scene.open_veils);
 }
 
 TEST_F(Overrides, AnEnvironmentThatIsNotThereCannotBeScaled) {
@@ -220,6 +221,7 @@ TEST_F(Overrides, LightOfTheirOwnReplacesTheNeutralSky) {
     const Scene scene = load_scene(obj, options);
     EXPECT_EQ(scene.environment.width, 1);
     EXPECT_TRUE(scene.has_open_exposure);
+    EXPECT_TRUE(scene.open_veils);
     options.camera = "1";
     EXPECT_THROW(load_scene(obj, options), Error);
 }

@@ -82,6 +82,14 @@ Scene clear_glass() {
     return scene;
 }
 
+/// The pane and the masks let the light of the point light pass, as in glTF files, and the slab does not.
+Scene open_veils() {
+    Scene scene = clear_glass();
+    scene.clear_glass = false;
+    scene.open_veils = true;
+    return scene;
+}
+
 TEST_F(GlassAgreement, CompleteWithALampBehindVeils) {
     on_each_device(
         [](Device& d) { expect_glass_agreement(d, lamp_behind_veils(), SamplerKind::close_range); });
@@ -107,6 +115,9 @@ TEST_F(GlassAgreement, LocalWithALampBehindVeils) {
 }
 TEST_F(GlassAgreement, CompleteThroughClearGlass) {
     on_each_device([](Device& d) { expect_glass_agreement(d, clear_glass(), SamplerKind::close_range); });
+}
+TEST_F(GlassAgreement, CompleteThroughOpenVeils) {
+    on_each_device([](Device& d) { expect_glass_agreement(d, open_veils(), SamplerKind::close_range); });
 }
 TEST_F(GlassAgreement, InstantRadiosityThroughClearGlass) {
     on_each_device(

@@ -215,13 +215,16 @@ TEST_F(ShadowRaysTest, VeilsUnderMapsAreLeftToRays) {
     });
 }
 
-TEST_F(ShadowRaysTest, PointLightsShineThroughVeilsOnlyWhereGlassIsClear) {
+TEST_F(ShadowRaysTest, PointLightsShineThroughVeilsOnlyWhereTheseAreOpenOrGlassIsClear) {
     on_each_device([](Device& device) {
         for (const VeilCase& veil : kVeilCases) {
             SCOPED_TRACE(veil.name);
             Scene scene = lit_by(Source::point);
             veil.add(scene);
             expect_share(arrived(device, scene, sampled(4)), kOpenPoint, {0, 0, 0});
+            scene.open_veils = true;
+            expect_share(arrived(device, scene, sampled(4)), kOpenPoint, veil.share);
+            scene.open_veils = false;
             scene.clear_glass = true;
             expect_share(arrived(device, scene, sampled(4)), kOpenPoint, veil.share);
         }
@@ -236,6 +239,8 @@ TEST_F(ShadowRaysTest, ClearGlassTakesWhatItsTwoFacesReflect) {
             Material glass = dielectric_material(1.5);
             glass.transmission = parameter_of(kTint);
             add_body(scene, add_material(scene, glass));
+            expect_share(arrived(device, scene, sampled(4)), open, {0, 0, 0});
+            scene.open_veils = true;
             expect_share(arrived(device, scene, sampled(4)), open, {0, 0, 0});
             scene.clear_glass = true;
             const auto faces = static_cast<float>((1 - kFace) * (1 - kFace));

@@ -84,6 +84,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
         add_default_light(scene, surfaces_are_lamps, notes);
     }
     scene.has_open_exposure = true;
+    scene.open_veils = true;
     return scene;
 }
 

@@ -132,10 +132,11 @@ static inline bool bundle_finds_sky(const SceneView* scene, float3 x, float3 dir
 }
 
 /// The part of a light sample that arrives at x, on a path that has room for `max_veils` more surfaces. Veils
-/// block the light of points and directions, which no ray can find behind them, unless glass is clear.
+/// that are NEARLIGHT_VEILS_THIN block the light of points and directions, as in Mitsuba, where no ray finds
+/// such lights behind them.
 OUTLINED float3 arriving_part(const SceneView* scene, float3 x, const LightSample* light, uint max_veils) {
     const uint veils = scene->info->veils;
-    if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils != NEARLIGHT_VEILS_CLEAR) ||
+    if (veils == NEARLIGHT_VEILS_NONE || (light->is_delta && veils == NEARLIGHT_VEILS_THIN) ||
         max_veils == 0) {
         return (float3)(light_is_visible(scene, x, light) ? 1.0f : 0.0f);
     }
