@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <span>
 
 #include "host/image/image_io.h"
 #include "host/scene/texture.h"
+#include "host/scene/transmission_curve.h"
 #include "tests/scene/gltf_text.h"
 
 namespace nearlight::core {
@@ -224,6 +227,10 @@ TEST_F(GltfLoader, RoughnessMetalnessAndNormalsAreTextured) {
     EXPECT_EQ(parameter_value(scene, side.metallic, 0.25f, 0.5f).x, 0.0f);
     EXPECT_EQ(parameter_value(scene, side.metallic, 0.75f, 0.5f).x, 1.0f);
     EXPECT_EQ(parameter_value(scene, side.roughness, 0.25f, 0.5f).x, 0.0f);
+    const TransmissionCurve smooth = layered_curve({.eta = 1.5, .roughness = 0});
+    const std::span<const float> curve =
+        std::span(scene.transmission_curves).subspan(side.curve * std::size_t{NEARLIGHT_CURVE_SIZE});
+    EXPECT_TRUE(std::equal(smooth.begin(), smooth.end(), curve.begin())) << "that of the smoothest texel";
     const Texture& texture = scene.textures.at(static_cast<std::size_t>(side.roughness.texture)).parameters;
     EXPECT_EQ(texture.wrap_s, NEARLIGHT_WRAP_CLAMP);
     EXPECT_EQ(texture.wrap_t, NEARLIGHT_WRAP_MIRROR);

@@ -193,6 +193,18 @@ TEST(Texture, MeansOfTextures) {
     expect_texel(mean_value(scene, textured(1)), {0.75f, 0.625f, 0.75f});
 }
 
+TEST(Texture, LeastAndLargestOfTextures) {
+    Scene scene = four_texels();
+    scene.images[0] = {"row", 2, 1, NEARLIGHT_TEXELS_LINEAR8, {0xff804020u, 0xff204080u}};
+    scene.textures.push_back(checkerboard(textured(0), parameter_of(0.2f)));
+    const float least = 0x20 / 255.0f, middle = 0x40 / 255.0f, largest = 0x80 / 255.0f;
+    expect_texel(min_value(scene, parameter_of(3.0f)), {3, 3, 3});
+    expect_texel(min_value(scene, textured(0, 2.0f)), {2 * least, 2 * middle, 2 * least});
+    expect_texel(max_value(scene, textured(0, 2.0f)), {2 * largest, 2 * middle, 2 * largest});
+    expect_texel(min_value(scene, textured(1)), {least, 0.2f, least});
+    expect_texel(max_value(scene, textured(1)), {largest, middle, largest});
+}
+
 /// Three grey texels in a row, 0, ½ and 1, stored linear.
 Scene grey_row(uint wrap, uint filter) {
     Scene scene = four_texels();
