@@ -115,12 +115,9 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file, OIIO::Filesystem::I
     if (!input) {
         fail_image("cannot read image", file, OIIO::geterror());
     }
-    // OpenImageIO 2.4 fills a table of ICC tags at the first JPEG with a profile, and takes no lock for it.
-    static std::mutex jpeg_heads;
-    std::unique_lock<std::mutex> one_at_a_time(jpeg_heads, std::defer_lock);
-    if (format == "jpeg") {
-        one_at_a_time.lock();
-    }
+    // OpenImageIO 2.4 fills a table of tags at the first ICC profile, of whatever format, without a lock.
+    static std::mutex heads;
+    const std::scoped_lock one_at_a_time(heads);
     OIIO::ImageSpec spec;
     if ((memory != nullptr && !input->set_ioproxy(memory)) || !input->open(file.string(), spec, options)) {
         fail_image("cannot read image", file, input->geterror());
