@@ -27,8 +27,8 @@ void add_device_options(CLI::App& command, DeviceChoice& choice);
 void warn_of_cache_file(const DeviceChoice& choice);
 
 /// The choice with a compiler that has its own processes, for which the environment that drivers read is set.
-/// Does what warn_of_cache_file() does.
 /// They must be started before the command has threads or loads a driver, so a command calls this first.
+/// Warns as warn_of_cache_file() does.
 DeviceChoice with_compile_workers(DeviceChoice choice);
 
 /// Opens all devices of the list that match, with one compiler for all. Throws Error(ErrorKind::no_device) if

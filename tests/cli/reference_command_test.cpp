@@ -21,6 +21,12 @@ class Reference : public testing::Test {
   protected:
     Reference() { std::ofstream(scene_) << floor_from_above(); }
     [[nodiscard]] std::string files() const { return quoted(scene_) + " -o " + quoted(output_); }
+    /// Expects that a command with these options ends with `exit_code` and says `part`.
+    void expect_error(const std::string& options, int exit_code, const std::string& part) const {
+        const ProgramResult result = run_program("reference " + options + " " + files());
+        EXPECT_EQ(result.exit_code, exit_code) << options;
+        EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
+    }
     void interrupt_endless_reference() const {
         const ProgramResult result =
             run_interrupted("reference --quiet --spp 16777216 " + files(), 1,
@@ -121,9 +127,7 @@ TEST_F(Reference, ResumingSomethingElseIsRefusedAndNamed) {
     ASSERT_EQ(run_program("reference --spp 4 " + files()).exit_code, 0);
     const std::string before = file_text(output_);
     const auto expect_refused = [&](const std::string& options, const std::string& named) {
-        const ProgramResult result = run_program("reference --resume --spp 8 " + options + " " + files());
-        EXPECT_EQ(result.exit_code, 3) << options;
-        EXPECT_NE(result.errors.find(named), std::string::npos) << result.errors;
+        expect_error("--resume --spp 8 " + options, 3, named);
     };
     expect_refused("--clamp-radius 0.5", "it has --clamp-radius 0, not 0.5; use");
     expect_refused("--max-depth 7 --seed 9", "it has --max-depth 2, not 7; it has --seed 0, not 9; use");
@@ -147,22 +151,14 @@ TEST_F(Reference, APictureOfAnotherCommandIsNotResumed) {
     const Image picture = make_image(8, 6, {"R", "G", "B"});
     write_image(output_, picture,
                 {.metadata = {{"nearlight:sampler", "close-range"}, {"nearlight:seed", 0}}});
-    const ProgramResult result = run_program("reference --resume --spp 4 " + files());
-    EXPECT_EQ(result.exit_code, 3);
-    EXPECT_NE(result.errors.find("reference.exr' was not made by `nearlight reference`"), std::string::npos)
-        << result.errors;
+    expect_error("--resume --spp 4", 3, "reference.exr' was not made by `nearlight reference`");
     EXPECT_EQ(read_image(output_).channels, picture.channels) << "it is still there";
 }
 
 TEST_F(Reference, NumbersHaveRangesLikeThoseOfRender) {
-    const auto expect_usage_error = [&](const std::string& options, const std::string& part) {
-        const ProgramResult result = run_program("reference " + options + " " + files());
-        EXPECT_EQ(result.exit_code, 2) << options;
-        EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
-    };
-    expect_usage_error("--threads -1", "--threads: '-1' is no whole number from 0 to 1024");
-    expect_usage_error("--max-depth foo", "--max-depth: 'foo' is no whole number from 0 to 1024");
-    expect_usage_error("--seed -1", "--seed: '-1' is no whole number from 0 to 18446744073709551615");
+    expect_error("--threads -1", 2, "--threads: '-1' is no whole number from 0 to 1024");
+    expect_error("--max-depth foo", 2, "--max-depth: 'foo' is no whole number from 0 to 1024");
+    expect_error("--seed -1", 2, "--seed: '-1' is no whole number from 0 to 18446744073709551615");
     EXPECT_EQ(run_program("reference --spp 4 --seed 18446744073709551615 " + files()).exit_code, 0);
 }
 

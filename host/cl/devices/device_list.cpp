@@ -30,7 +30,7 @@ std::string trimmed(std::string text) {
 
 /// Whether a version, such as "OpenCL 3.0 PoCL" or "OpenCL C 1.2", is 1.2 or later.
 bool is_recent(const std::string& version) {
-    static const std::regex numbers(R"((\d+)\.(\d+))");
+    static const std::regex numbers(R"((\d{1,4})\.(\d{1,4}))");
     std::smatch match;
     return !std::regex_search(version, match, numbers) ||
            std::pair(std::stoi(match[1].str()), std::stoi(match[2].str())) >= std::pair(1, 2);
