@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host/scene/gltf/transmission.h"
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
 #include "host/scene/shining_backs.h"

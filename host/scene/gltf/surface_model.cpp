@@ -3,38 +3,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
+#include "host/scene/gltf/factors.h"
+#include "host/scene/gltf/reflections.h"
+#include "host/scene/gltf/transmission.h"
 #include "host/scene/material_model.h"
 
 namespace nearlight::core::gltf {
 namespace {
 
-constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
-constexpr const char* kVolume = "KHR_materials_volume";
-
-/// The least index of the models, which stands for no reflections.
-constexpr double kMinIndex = 1.001;
-
-Vec3 clamped(Vec3 c) {
-    return min(max(c, {0, 0, 0}), {1, 1, 1});
-}
-
-Vec3 grey(double number) {
-    return Vec3{1, 1, 1} * static_cast<float>(std::clamp(number, 0.0, 1.0));
-}
-
 Vec3 to_vec3(const std::vector<double>& values, Vec3 fallback) {
     return values.size() < 3 ? fallback
                              : Vec3{static_cast<float>(values[0]), static_cast<float>(values[1]),
                                     static_cast<float>(values[2])};
-}
-
-/// The index at which a dielectric reflects the share `f0` of light head-on.
-double index_of_reflectance(double f0) {
-    const double amplitude = std::min(std::sqrt(f0), 0.95);
-    return (1.0 + amplitude) / (1.0 - amplitude);
 }
 
 /// The colour of the base, and its alpha.
@@ -155,149 +137,6 @@ void read_vertex_alphas(const tinygltf::Material& source, const Base& base, cons
     }
 }
 
-/// Stands for the infinite index that an index of 0 means: all light is reflected, at all angles.
-constexpr double kInfiniteIndex = 1e4;
-
-/// The index and the strength of reflections from KHR_materials_ior and KHR_materials_specular.
-void read_reflections(const tinygltf::Material& source, const SurfaceContext& context,
-                      SurfaceModel& surface) {
-    constexpr const char* kSpecular = "KHR_materials_specular";
-    surface.index = number_of(source.extensions, "KHR_materials_ior", "ior", kUsualIndex);
-    if (surface.index == 0.0) {
-        surface.index = kInfiniteIndex;
-        context.approximate("KHR_materials_ior: an index of 0 is taken for a very large one");
-    }
-    const double specular = number_of(source.extensions, kSpecular, "specularFactor", 1);
-    const Vec3 tint = color_of(source.extensions, kSpecular, "specularColorFactor", {1, 1, 1});
-    const double factor = std::max(0.0, specular) * static_cast<double>(std::max(0.0f, luminance(tint)));
-    if (tint.x != tint.y || tint.y != tint.z) {
-        context.approximate("KHR_materials_specular: the colour of reflections is replaced by its luminance");
-    }
-    if (texture_of(source.extensions, kSpecular, "specularTexture").index >= 0 ||
-        texture_of(source.extensions, kSpecular, "specularColorTexture").index >= 0) {
-        context.approximate("KHR_materials_specular: its textures are left out");
-    }
-    surface.refraction_index = surface.index >= 1.0 ? std::max(surface.index, kMinIndex) : kUsualIndex;
-    surface.dielectric_reflects = factor > 0.0 && surface.index > 1.0;
-    const double root = (surface.index - 1.0) / (surface.index + 1.0);
-    surface.index = surface.dielectric_reflects
-                        ? std::max(index_of_reflectance(root * root * factor), kMinIndex)
-                        : kMinIndex;
-}
-
-/// Metalness and roughness of materials that are given by the colour of their reflections, which take from
-/// the diffuse colour as much as their brightest channel has. Those that reflect more than any dielectric and
-/// more than they scatter are taken for metals.
-void read_specular_glossiness(const tinygltf::Material& source, const SurfaceContext& context,
-                              SurfaceModel& surface) {
-    context.approximate(std::string(kSpecularGlossiness) + " is converted to metalness and roughness");
-    const tinygltf::TextureInfo texture =
-        texture_of(source.extensions, kSpecularGlossiness, "specularGlossinessTexture");
-    const Vec3 specular =
-        clamped(color_of(source.extensions, kSpecularGlossiness, "specularFactor", {1, 1, 1}));
-    const auto glossiness =
-        static_cast<float>(number_of(source.extensions, kSpecularGlossiness, "glossinessFactor", 1));
-    const Parameter reflected = context.textures.textured_by(texture, specular, {}, context.sets);
-    surface.roughness =
-        texture.index < 0
-            ? parameter_of(grey(1.0 - static_cast<double>(glossiness)))
-            : context.textures.textured_by(
-                  texture, {1, 1, 1}, {.channel = 3, .is_inverse = true, .factor = glossiness}, context.sets);
-    const Vec3 mean_reflected = context.textures.mean(reflected);
-    surface.color.value = surface.color.value * (1.0f - std::min(max_component(mean_reflected), 1.0f));
-    const float mean = luminance(mean_reflected);
-    const bool is_metal = mean > 0.25f && mean > luminance(context.textures.mean(surface.color));
-    surface.metallic = parameter_of(is_metal ? 1.0f : 0.0f);
-    if (is_metal) {
-        surface.color = reflected;
-    }
-    surface.dielectric_reflects = mean > 0.0f;
-    surface.index = std::max(index_of_reflectance(std::min(static_cast<double>(mean), 0.25)), kMinIndex);
-}
-
-/// KHR_materials_anisotropy, which stretches the microfacets along u: α is that of the roughness across it,
-/// and lies between that and 1 along it. The principled model has √(αu·αv) as the square of its roughness,
-/// and αv ÷ αu = 1 − 0.9·anisotropic.
-void read_anisotropy(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
-    constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
-    const double strength =
-        std::clamp(number_of(source.extensions, kAnisotropy, "anisotropyStrength", 0), 0.0, 1.0);
-    surface.stretched_roughness = surface.roughness;
-    if (strength == 0.0) {
-        return;
-    }
-    if (surface.transmits()) {
-        context.approximate(std::string(kAnisotropy) + " is left out of glass");
-    }
-    if (surface.is_glass()) {
-        return;
-    }
-    const double turn = number_of(source.extensions, kAnisotropy, "anisotropyRotation", 0);
-    if (std::abs(std::sin(turn)) > 1e-3 ||
-        texture_of(source.extensions, kAnisotropy, "anisotropyTexture").index >= 0) {
-        context.approximate(std::string(kAnisotropy) + " is left out where it is turned or has a texture");
-        return;
-    }
-    const auto roughness = static_cast<double>(context.textures.mean(surface.roughness).x);
-    const double across = std::max(roughness * roughness, 1e-3);
-    const double along = across + (1.0 - across) * strength * strength;
-    const double anisotropic = (1.0 - across / along) / 0.9;
-    if (surface.roughness.texture >= 0 || anisotropic > 1.0) {
-        context.approximate(std::string(kAnisotropy) +
-                            " stretches reflections up to tenfold, and as at the mean of the roughness");
-    }
-    surface.anisotropic = static_cast<float>(std::min(anisotropic, 1.0));
-    if (surface.roughness.texture >= 0) {
-        surface.stretched_roughness.value *= static_cast<float>(std::pow(along / across, 0.25));
-    } else {
-        surface.stretched_roughness = parameter_of(static_cast<float>(std::pow(along * across, 0.25)));
-    }
-}
-
-void read_metallic_roughness(const tinygltf::Material& source, const SurfaceContext& context,
-                             SurfaceModel& surface) {
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    surface.metallic = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.metallicFactor),
-                                                    {.channel = 2}, context.sets);
-    surface.roughness = context.textures.textured_by(pbr.metallicRoughnessTexture, grey(pbr.roughnessFactor),
-                                                     {.channel = 1}, context.sets);
-    read_reflections(source, context, surface);
-}
-
-double transmission_factor(const tinygltf::Material& source) {
-    return number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
-}
-
-/// What is left of light at each of the two faces of a body, which absorb half each of what its thickness
-/// does. The file has the thickness in the coordinates of the mesh, and the distance in the world.
-Vec3 absorption_of(const tinygltf::Material& source, const SurfaceContext& context) {
-    context.approximate(
-        "KHR_materials_volume: light is absorbed at the faces of glass, as over its thickness");
-    const tinygltf::TextureInfo texture = texture_of(source.extensions, kVolume, "thicknessTexture");
-    if (texture.index >= 0) {
-        context.approximate("KHR_materials_volume: thicknessTexture is replaced by its mean");
-    }
-    const Parameter share = context.textures.textured_by(texture, {1, 1, 1}, {.channel = 1}, context.sets);
-    const Volume volume = volume_of(source);
-    const double thickness = volume.thickness * static_cast<double>(context.scale) *
-                             static_cast<double>(context.textures.mean(share).x);
-    const auto exponent = static_cast<float>(std::min(1e3, 0.5 * thickness / volume.distance));
-    return {std::pow(volume.color.x, exponent), std::pow(volume.color.y, exponent),
-            std::pow(volume.color.z, exponent)};
-}
-
-/// Glass: KHR_materials_transmission and KHR_materials_volume.
-void read_glass(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
-    surface.transmission = context.textures.textured_by(
-        texture_of(source.extensions, "KHR_materials_transmission", "transmissionTexture"),
-        grey(transmission_factor(source)), {.channel = 0}, context.sets);
-    const Volume volume = volume_of(source);
-    surface.is_thin = volume.is_thin();
-    if (surface.transmits() && volume.absorbs()) {
-        surface.absorption = absorption_of(source, context);
-    }
-}
-
 /// KHR_materials_clearcoat and KHR_materials_sheen, as the principled model has them.
 void read_layers(const tinygltf::Material& source, const SurfaceContext& context, SurfaceModel& surface) {
     constexpr const char* kCoat = "KHR_materials_clearcoat";
@@ -348,16 +187,6 @@ bool shines_by_alpha(const tinygltf::Material& source) {
     return source.alphaMode == "BLEND" && source.extensions.contains("KHR_materials_unlit");
 }
 
-Volume volume_of(const tinygltf::Material& source) {
-    return {.thickness = number_of(source.extensions, kVolume, "thicknessFactor", 0),
-            .distance = number_of(source.extensions, kVolume, "attenuationDistance", HUGE_VAL),
-            .color = clamped(color_of(source.extensions, kVolume, "attenuationColor", {1, 1, 1}))};
-}
-
-bool absorbs_inside(const tinygltf::Material& source) {
-    return volume_of(source).absorbs() && transmission_factor(source) > 0;
-}
-
 bool SurfaceModel::is_diffuse() const {
     const bool is_layered = clearcoat.value.x > 0.0f || sheen.value.x > 0.0f;
     const bool is_fully_rough = roughness.texture < 0 && roughness.value.x >= 1.0f;
@@ -381,12 +210,8 @@ SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext
     surface.color = color_of_base(base, context);
     surface.emission = emission_of(source, base, context);
     read_vertex_alphas(source, base, context, surface);
-    if (uses_specular_glossiness(source)) {
-        read_specular_glossiness(source, context, surface);
-    } else {
-        read_metallic_roughness(source, context, surface);
-    }
-    read_glass(source, context, surface);
+    read_reflections(source, context, surface);
+    read_transmission(source, context, surface);
     read_anisotropy(source, context, surface);
     read_layers(source, context, surface);
     return surface;

@@ -2,8 +2,6 @@
 // What a glTF material and its extensions say about a surface, as parameters of the scene.
 #pragma once
 
-#include <cmath>
-
 #include "host/scene/gltf/textures.h"
 #include "host/scene/material_model.h"
 
@@ -55,20 +53,7 @@ struct SurfaceContext {
     void approximate(const std::string& what) const { notes.approximation(file.path, 0, what); }
 };
 
-/// The inside of a body, by KHR_materials_volume. It absorbs light only where the surface transmits some.
-struct Volume {
-    double thickness = 0;        ///< in the coordinates of the mesh; 0 or less: the surface is a thin pane
-    double distance = HUGE_VAL;  ///< in the world, after which `color` is left of white light
-    Vec3 color{1, 1, 1};         ///< in [0, 1]
-
-    [[nodiscard]] bool is_thin() const { return thickness <= 0; }
-    [[nodiscard]] bool absorbs() const {
-        return !is_thin() && distance > 0 && std::isfinite(distance) && !(color == Vec3{1, 1, 1});
-    }
-};
-Volume volume_of(const tinygltf::Material& source);
-/// Whether bodies of the material absorb light, more of it the larger they are.
-bool absorbs_inside(const tinygltf::Material& source);
+inline constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 /// Whether a material is to be made of KHR_materials_pbrSpecularGlossiness. Where textures of the
 /// metallic-roughness model stand beside it, these are used, because nothing of them has to be converted.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/transmission.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/gltf/factors.h"
+
+namespace nearlight::core::gltf {
+namespace {
+
+constexpr const char* kVolume = "KHR_materials_volume";
+
+double transmission_factor(const tinygltf::Material& source) {
+    return number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
+}
+
+/// What is left of light at each of the two faces of a body, which absorb half each of what its thickness
+/// does. The file has the thickness in the coordinates of the mesh, and the distance in the world.
+Vec3 absorption_of(const tinygltf::Material& source, const SurfaceContext& context) {
+    context.approximate(
+        "KHR_materials_volume: light is absorbed at the faces of glass, as over its thickness");
+    const tinygltf::TextureInfo texture = texture_of(source.extensions, kVolume, "thicknessTexture");
+    if (texture.index >= 0) {
+        context.approximate("KHR_materials_volume: thicknessTexture is replaced by its mean");
+    }
+    const Parameter share = context.textures.textured_by(texture, {1, 1, 1}, {.channel = 1}, context.sets);
+    const Volume volume = volume_of(source);
+    const double thickness = volume.thickness * static_cast<double>(context.scale) *
+                             static_cast<double>(context.textures.mean(share).x);
+    const auto exponent = static_cast<float>(std::min(1e3, 0.5 * thickness / volume.distance));
+    return {std::pow(volume.color.x, exponent), std::pow(volume.color.y, exponent),
+            std::pow(volume.color.z, exponent)};
+}
+
+}  // namespace
+
+Volume volume_of(const tinygltf::Material& source) {
+    return {.thickness = number_of(source.extensions, kVolume, "thicknessFactor", 0),
+            .distance = number_of(source.extensions, kVolume, "attenuationDistance", HUGE_VAL),
+            .color = clamped(color_of(source.extensions, kVolume, "attenuationColor", {1, 1, 1}))};
+}
+
+bool absorbs_inside(const tinygltf::Material& source) {
+    return volume_of(source).absorbs() && transmission_factor(source) > 0;
+}
+
+void read_transmission(const tinygltf::Material& source, const SurfaceContext& context,
+                       SurfaceModel& surface) {
+    surface.transmission = context.textures.textured_by(
+        texture_of(source.extensions, "KHR_materials_transmission", "transmissionTexture"),
+        grey(transmission_factor(source)), {.channel = 0}, context.sets);
+    const Volume volume = volume_of(source);
+    surface.is_thin = volume.is_thin();
+    if (surface.transmits() && volume.absorbs()) {
+        surface.absorption = absorption_of(source, context);
+    }
+}
+
+}  // namespace nearlight::core::gltf
