@@ -39,6 +39,7 @@ inline AnimatedRoom animated_room() {
                     {"samplers", {{{"input", times}, {"output", values}}}},
                     {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}};
     };
+    const json chalk = {{"KHR_materials_specular", {{"specularFactor", 0}}}};
     const double s = 0.70710678118654752;
     const json root{
         {"asset", {{"version", "2.0"}}},
@@ -54,8 +55,10 @@ inline AnimatedRoom animated_room() {
          {{{"primitives", {{{"attributes", {{"POSITION", quad}}}, {"material", 0}}}}},
           {{"primitives", {{{"attributes", {{"POSITION", quad}}}, {"material", 1}}}}}}},
         {"materials",
-         {{{"doubleSided", true}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}},
-          {{"emissiveFactor", {1, 1, 1}}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}}}},
+         {{{"doubleSided", true}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}, {"extensions", chalk}},
+          {{"emissiveFactor", {1, 1, 1}},
+           {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+           {"extensions", chalk}}}},
         {"animations", {motion("walk", 3, walk_times, walk), motion("rise", 2, rise_times, rise)}},
         {"accessors", accessors},
         {"bufferViews", views},

@@ -29,6 +29,10 @@ def animated_room(folder):
 
     square = add([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (-1, 0, -1), (1, 0, 1), (1, 0, -1)], "VEC3")
     turn = 0.5**0.5
+    chalk = {
+        "pbrMetallicRoughness": {"metallicFactor": 0},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0}},
+    }
     root = {
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0, 1, 2, 3]}],
@@ -43,8 +47,8 @@ def animated_room(folder):
             {"primitives": [{"attributes": {"POSITION": square}, "material": material}]} for material in (0, 1)
         ],
         "materials": [
-            {"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}},
-            {"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"metallicFactor": 0}},
+            {"doubleSided": True, **chalk},
+            {"emissiveFactor": [1, 1, 1], **chalk},
         ],
         "animations": [
             motion("walk", 3, [0, 1], [(-0.5, 1, 3), (0.5, 1, 3)]),

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 #include <span>
+#include <tuple>
 
 #include "host/image/image_io.h"
 #include "host/scene/texture.h"
@@ -34,12 +35,9 @@ Material top_of(const Scene& scene) {
 
 TEST_F(GltfLoader, Materials) {
     json& pbr = gltf_.material()["pbrMetallicRoughness"];
-    pbr = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
-    EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_DIFFUSE);
-    expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
-
-    pbr["roughnessFactor"] = 0.3;
+    pbr = {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.3}};
     EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_PRINCIPLED);
+    expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
     EXPECT_EQ(side_of(load()).flags & NEARLIGHT_MATERIAL_LAYERED, NEARLIGHT_MATERIAL_LAYERED);
     EXPECT_FLOAT_EQ(side_of(load()).roughness.value.x, 0.3f);
     EXPECT_FLOAT_EQ(side_of(load()).eta.x, 1.5f);
@@ -50,6 +48,27 @@ TEST_F(GltfLoader, Materials) {
     EXPECT_EQ(side_of(load()).metallic.value.x, 1.0f);
     expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
     EXPECT_NE(side_of(load()).curve, 0u);
+}
+
+/// A roughness of 1, which is the default, takes no reflections away; an index of 1 and a factor of 0 do.
+TEST_F(GltfLoader, OnlyWhatReflectsNothingIsDiffuse) {
+    gltf_.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}};
+    const Scene scene = load();
+    const Material cloth = side_of(scene);
+    EXPECT_EQ(cloth.model, NEARLIGHT_BSDF_PRINCIPLED);
+    EXPECT_EQ(cloth.roughness.value.x, 1.0f);
+    EXPECT_FLOAT_EQ(cloth.eta.x, 1.5f);
+    const TransmissionCurve rough = layered_curve({.eta = 1.5, .roughness = 1});
+    const std::span<const float> curve =
+        std::span(scene.transmission_curves).subspan(cloth.curve * std::size_t{NEARLIGHT_CURVE_SIZE});
+    EXPECT_TRUE(std::equal(rough.begin(), rough.end(), curve.begin()));
+    for (const auto& [extension, key, value] :
+         {std::tuple{"KHR_materials_specular", "specularFactor", 0}, {"KHR_materials_ior", "ior", 1}}) {
+        gltf_.material()["pbrMetallicRoughness"]["baseColorFactor"] = {0.2, 0.4, 0.6, 1};
+        gltf_.material()["extensions"] = {{extension, {{key, value}}}};
+        EXPECT_EQ(side_of(load()).model, NEARLIGHT_BSDF_DIFFUSE) << extension;
+        expect_close(side_of(load()).reflectance.value, {0.2f, 0.4f, 0.6f});
+    }
 }
 
 TEST_F(GltfLoader, WhatAMaterialMayNotSayIsNoted) {

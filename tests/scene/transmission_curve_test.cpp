@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "host/scene/layered_materials.h"
 #include "host/scene/material_model.h"
 #include "tests/support/error_matchers.h"
@@ -107,6 +109,20 @@ TEST(TransmissionCurve, ABaseGetsWhatItsLayersLeave) {
     EXPECT_LT(base({.eta = 1.8}), base({.eta = 1.5}));
     EXPECT_LT(base({.clearcoat = 1}), base({}));
     EXPECT_LT(base({.sheen = 1}), base({}));
+}
+
+/// What facets of roughness 1 reflect, by the rule of the midpoints over visible normals that spherical caps
+/// give [Dupuy & Benyoub 2023]: much less than smooth ones, because they shadow most of it, but not nothing.
+TEST(TransmissionCurve, TheRoughestLayersStillReflect) {
+    const TransmissionCurve rough = layered_curve({.eta = 1.5, .roughness = 1});
+    for (const auto& [i, reflected] : {std::pair{20u, 0.041f},
+                                       {60u, 0.0308f},
+                                       {100u, 0.0241f},
+                                       {160u, 0.0178f},
+                                       {220u, 0.0141f},
+                                       {252u, 0.0127f}}) {
+        EXPECT_NEAR(1 - rough[i] * mean_transmission(rough), reflected, 5e-4f) << i;
+    }
 }
 
 TEST(TransmissionCurve, LayersThatAreNearlyAlikeShareACurve) {

@@ -25,7 +25,7 @@ struct MaterialUse {
 };
 
 /// Makes each material when a mesh first asks for it: a principled one for metals and bases that reflect,
-/// diffuse for bases that hardly do, glass where light is transmitted. Masks, blends and normal maps lie
+/// diffuse for bases that do not, glass where light is transmitted. Masks, blends and normal maps lie
 /// around it. What is left out or replaced by its mean is noted.
 class MaterialMaker {
   public:

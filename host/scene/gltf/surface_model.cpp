@@ -189,8 +189,7 @@ bool shines_by_alpha(const tinygltf::Material& source) {
 
 bool SurfaceModel::is_diffuse() const {
     const bool is_layered = clearcoat.value.x > 0.0f || sheen.value.x > 0.0f;
-    const bool is_fully_rough = roughness.texture < 0 && roughness.value.x >= 1.0f;
-    return !is_layered && !is_metal() && (!dielectric_reflects || is_fully_rough);
+    return !is_layered && !is_metal() && !dielectric_reflects;
 }
 
 SurfaceModel read_surface(const tinygltf::Material& source, const SurfaceContext& context) {

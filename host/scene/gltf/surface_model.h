@@ -30,7 +30,7 @@ struct SurfaceModel {
     bool dielectric_reflects = true;  ///< metal always does
     bool is_unlit = false;
 
-    /// Whether it is a white chalk: reflections as rough as can be are left to the diffuse part.
+    /// Whether nothing lies above the base that reflects.
     [[nodiscard]] bool is_diffuse() const;
     [[nodiscard]] bool transmits() const { return transmission.value.x > 0.0f; }
     [[nodiscard]] bool is_metal() const { return metallic.value.x > 0.0f; }
