@@ -34,6 +34,13 @@ class GltfLook : public GltfLoader {
         gltf_.root["images"] = {{{"uri", "texel.exr"}}};
         gltf_.root["textures"] = {{{"source", 0}}};
     }
+    /// Texture 0: two texels side by side, between which nothing is blended.
+    void add_two_texels(const std::vector<float>& rgba) {
+        write_image(files_.path("two.exr"), {2, 1, {"R", "G", "B", "A"}, rgba});
+        gltf_.root["images"] = {{{"uri", "two.exr"}}};
+        gltf_.root["samplers"] = {{{"magFilter", 9728}}};
+        gltf_.root["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    }
     json& extension(const std::string& name) { return gltf_.material()["extensions"][name]; }
 };
 

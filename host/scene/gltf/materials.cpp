@@ -123,13 +123,7 @@ uint MaterialMaker::add_glass(const SurfaceModel& surface) {
     Material glass = surface.is_thin ? thin_dielectric_material(index) : dielectric_material(index);
     glass.transmission = surface.color;
     glass.transmission.value = glass.transmission.value * surface.absorption;
-    if (surface.roughness.texture >= 0) {
-        approximate(
-            "KHR_materials_transmission: textures of the roughness of glass bodies are replaced by their "
-            "means");
-    }
-    const float roughness = mean_value(scene_, surface.roughness).x;
-    glass.roughness = parameter_of(roughness * roughness);
+    glass.roughness = surface.body_alpha;
     return add(glass);
 }
 

@@ -25,7 +25,8 @@ struct SurfaceModel {
     float anisotropic = 0;  ///< of the principled model, along u
     /// The roughness with which that model makes the stretched reflections.
     Parameter stretched_roughness = parameter_of(1.0f);
-    Vec3 absorption{1, 1, 1};  ///< what is left of light at each face of a body
+    Parameter body_alpha = parameter_of(0.0f);  ///< α of the facets of glass bodies
+    Vec3 absorption{1, 1, 1};                   ///< what is left of light at each face of a body
     bool is_thin = true;
     bool dielectric_reflects = true;  ///< metal always does
     bool is_unlit = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "host/scene/gltf/factors.h"
 
@@ -33,6 +34,23 @@ Vec3 absorption_of(const tinygltf::Material& source, const SurfaceContext& conte
             std::pow(volume.color.z, exponent)};
 }
 
+/// α of the facets of a glass body: the square of the roughness, at each texel where it has a texture.
+Parameter alpha_of_body(const tinygltf::Material& source, const SurfaceContext& context,
+                        const SurfaceModel& surface) {
+    if (surface.roughness.texture >= 0 && !uses_specular_glossiness(source)) {
+        const float factor = surface.roughness.value.x;
+        return context.textures.textured_by(source.pbrMetallicRoughness.metallicRoughnessTexture,
+                                            Vec3{1, 1, 1} * (factor * factor),
+                                            {.gamma = 2.0f, .channel = 1, .is_encoded = true}, context.sets);
+    }
+    if (surface.roughness.texture >= 0) {
+        context.approximate(std::string(kSpecularGlossiness) +
+                            ": textures of the glossiness of glass bodies are replaced by their means");
+    }
+    const float roughness = context.textures.mean(surface.roughness).x;
+    return parameter_of(roughness * roughness);
+}
+
 }  // namespace
 
 Volume volume_of(const tinygltf::Material& source) {
@@ -52,6 +70,9 @@ void read_transmission(const tinygltf::Material& source, const SurfaceContext& c
         grey(transmission_factor(source)), {.channel = 0}, context.sets);
     const Volume volume = volume_of(source);
     surface.is_thin = volume.is_thin();
+    if (surface.transmits() && !surface.is_thin) {
+        surface.body_alpha = alpha_of_body(source, context, surface);
+    }
     if (surface.transmits() && volume.absorbs()) {
         surface.absorption = absorption_of(source, context);
     }
