@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/image/image_io.h"
 #include "tests/scene/gltf_text.h"
@@ -102,6 +103,36 @@ TEST_F(GltfPictures, BlackClothIsNotQuiteBlack) {
     gltf_.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}}};
     on_each_device(
         [&](Device& device) { EXPECT_NEAR(mean(red(device, "2")), 2 * 0.0131f, 0.05f * 2 * 0.0131f); });
+}
+
+/// A curtain that reflects 0.4 of a quarter of the light, and lets 0.8 of the rest through.
+TEST_F(GltfPictures, LightDiffusesThroughCurtains) {
+    gltf_.material() = {
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.4, 1, 1, 1}}, {"metallicFactor", 0}}}};
+    gltf_.material()["extensions"] = {
+        {"KHR_materials_specular", {{"specularFactor", 0}}},
+        {"KHR_materials_diffuse_transmission",
+         {{"diffuseTransmissionFactor", 0.75}, {"diffuseTransmissionColorFactor", {0.8, 0, 0}}}}};
+    on_each_device([&](Device& device) {
+        const float expected = 2 * (0.25f * 0.4f + 0.75f * 0.8f);
+        EXPECT_NEAR(mean(red(device, "2")), expected, 0.03f * expected);
+    });
+    // A point light of 1 W/sr, 1 m behind the middle of the curtain.
+    gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 683}}};
+    gltf_.root["nodes"].push_back(
+        {{"translation", {0.5, 0.5, -1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    gltf_.root["scenes"][0]["nodes"] = {0, 1, 2};
+    on_each_device([&](Device& device) {
+        const float step = 2 * std::tan(0.35f) / kPictureSize;
+        float expected = 0;
+        for (int pixel = 0; pixel < kPictureSize * kPictureSize; ++pixel) {
+            const float x = step * (static_cast<float>(pixel % kPictureSize) + 0.5f - kPictureSize / 2);
+            const float y = step * (static_cast<float>(pixel / kPictureSize) + 0.5f - kPictureSize / 2);
+            const float passed = 0.75f * 0.8f / std::numbers::pi_v<float>;
+            expected += passed * std::pow(1 + x * x + y * y, -1.5f) / (kPictureSize * kPictureSize);
+        }
+        EXPECT_NEAR(mean(red(device, "0")), expected, 0.05f * expected);
+    });
 }
 
 /// A square with a normal map, its lamp and its camera, and all of them mirrored.

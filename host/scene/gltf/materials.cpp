@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "host/scene/scene_names.h"
 #include "host/scene/shining_backs.h"
 #include "host/scene/texture.h"
+#include "host/scene/transmission_curve.h"
 
 namespace nearlight::core::gltf {
 namespace {
@@ -56,6 +58,9 @@ std::vector<tinygltf::TextureInfo> textures_of(const tinygltf::Material& source)
     infos.push_back(reflection_texture_of(source));
     for (const auto& [extension, factor, key] :
          {std::tuple{"KHR_materials_transmission", "transmissionFactor", "transmissionTexture"},
+          {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", "diffuseTransmissionTexture"},
+          {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor",
+           "diffuseTransmissionColorTexture"},
           {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoatTexture"}}) {
         if (number_of(source.extensions, extension, factor, 0) > 0) {
             infos.push_back(texture_of(source.extensions, extension, key));
@@ -75,6 +80,14 @@ uint MaterialMaker::add(const Material& material) {
     return static_cast<uint>(scene_.materials.size() - 1);
 }
 
+/// A white base below the layers of the surface.
+Material MaterialMaker::layered_base(const SurfaceModel& surface) {
+    return layered_.of(scene_, {.eta = surface.index,
+                                .roughness = static_cast<double>(min_value(scene_, surface.roughness).x),
+                                .clearcoat = static_cast<double>(mean_value(scene_, surface.clearcoat).x),
+                                .sheen = static_cast<double>(mean_value(scene_, surface.sheen).x)});
+}
+
 /// A base with reflections, or metal, or a texture's choice of both, on both sides.
 uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     if (surface.is_unlit) {
@@ -85,11 +98,7 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
         base.reflectance = surface.color;
         return add_two_sided(scene_, base);
     }
-    Material material =
-        layered_.of(scene_, {.eta = surface.index,
-                             .roughness = static_cast<double>(min_value(scene_, surface.roughness).x),
-                             .clearcoat = static_cast<double>(mean_value(scene_, surface.clearcoat).x),
-                             .sheen = static_cast<double>(mean_value(scene_, surface.sheen).x)});
+    Material material = layered_base(surface);
     material.reflectance = surface.color;
     material.metallic = surface.metallic;
     material.roughness = surface.stretched_roughness;
@@ -101,6 +110,21 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
         material.flags |= NEARLIGHT_MATERIAL_TANGENT;
     }
     return add_two_sided(scene_, material);
+}
+
+/// A sheet through which all light diffuses that the layers of the surface leave to it.
+uint MaterialMaker::add_sheet(const SurfaceModel& surface) {
+    Material sheet = principled_material(scene_, kUsualIndex);
+    sheet.flags |= NEARLIGHT_MATERIAL_THIN;
+    sheet.reflectance = surface.passed_color;
+    if (!surface.is_diffuse()) {
+        approximate("KHR_materials_diffuse_transmission: reflections fade as more light diffuses through");
+        const std::size_t row = std::size_t{layered_base(surface).curve} * NEARLIGHT_CURVE_SIZE;
+        const float root =
+            mean_transmission(std::span(scene_.transmission_curves).subspan(row, NEARLIGHT_CURVE_SIZE));
+        sheet.reflectance.value *= root * root;
+    }
+    return add(sheet);
 }
 
 /// A pane whose faces scatter what they reflect and let through.
@@ -163,6 +187,7 @@ void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
     for (const auto& [extension, key] : {std::pair{"KHR_materials_clearcoat", "clearcoatFactor"},
                                          {"KHR_materials_clearcoat", "clearcoatRoughnessFactor"},
                                          {"KHR_materials_transmission", "transmissionFactor"},
+                                         {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"},
                                          {"KHR_materials_anisotropy", "anisotropyStrength"},
                                          {"KHR_materials_specular", "specularFactor"}}) {
         if (!is_part(number_of(source.extensions, extension, key, 0))) {
@@ -184,19 +209,31 @@ void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
     }
 }
 
+/// What is opaque, what lets light through, and the blends between them.
+uint MaterialMaker::add_surface(const SurfaceModel& surface) {
+    if (surface.is_glass()) {
+        return add_glass(surface);
+    }
+    const uint opaque = add_opaque(surface);
+    uint made = opaque;
+    if (surface.diffuses_through()) {
+        made = add(blend_material(surface.diffuse_transmission, made, add_sheet(surface)));
+    }
+    if (surface.transmits()) {
+        made = add(blend_material(surface.transmission, made, add_glass(surface)));
+    }
+    if (made != opaque && surface.is_metal()) {  // metal lets nothing through
+        made = add(blend_material(surface.metallic, made, opaque));
+    }
+    return made;
+}
+
 uint MaterialMaker::make(const tinygltf::Material& source, const MaterialUse& use) {
     note_odd_values(source);
     const SurfaceContext context{file_,          textures_,      notes_,   texture_sets(use.index),
                                  use.has_colors, use.has_alphas, use.scale};
     const SurfaceModel surface = read_surface(source, context);
-    uint made = surface.is_glass() ? add_glass(surface) : add_opaque(surface);
-    if (surface.transmits() && !surface.is_glass()) {
-        const uint opaque = made;
-        made = add(blend_material(surface.transmission, opaque, add_glass(surface)));
-        if (surface.is_metal()) {  // metal lets nothing through
-            made = add(blend_material(surface.metallic, made, opaque));
-        }
-    }
+    uint made = add_surface(surface);
     if (has_normal_map(use.index) && !surface.is_unlit) {
         made = add_normal_map(source, context, use, made);
     }

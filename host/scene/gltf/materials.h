@@ -25,8 +25,8 @@ struct MaterialUse {
 };
 
 /// Makes each material when a mesh first asks for it: a principled one for metals and bases that reflect,
-/// diffuse for bases that do not, glass where light is transmitted. Masks, blends and normal maps lie
-/// around it. What is left out or replaced by its mean is noted.
+/// diffuse for bases that do not, glass where light is transmitted, and thin sheets where it diffuses
+/// through. Masks, blends and normal maps lie around it. What is left out or replaced by its mean is noted.
 class MaterialMaker {
   public:
     MaterialMaker(const GltfFile& file, Scene& scene, NoteSink& notes)
@@ -57,7 +57,10 @@ class MaterialMaker {
     }
     void note_odd_values(const tinygltf::Material& source);
     [[nodiscard]] uint make(const tinygltf::Material& source, const MaterialUse& use);
+    [[nodiscard]] uint add_surface(const SurfaceModel& surface);
     [[nodiscard]] uint add_opaque(const SurfaceModel& surface);
+    [[nodiscard]] uint add_sheet(const SurfaceModel& surface);
+    [[nodiscard]] Material layered_base(const SurfaceModel& surface);
     [[nodiscard]] uint add_glass(const SurfaceModel& surface);
     [[nodiscard]] uint add_rough_pane(const SurfaceModel& surface, double index);
     [[nodiscard]] uint add_normal_map(const tinygltf::Material& source, const SurfaceContext& context,

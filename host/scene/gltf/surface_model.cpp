@@ -160,11 +160,17 @@ void read_layers(const tinygltf::Material& source, const SurfaceContext& context
 
 /// Notes the extensions of materials that nothing here reads.
 void remark_what_is_left_out(const tinygltf::Material& source, const SurfaceContext& context) {
-    constexpr std::array<std::string_view, 10> kRead{
-        "KHR_materials_anisotropy", "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-        "KHR_materials_ior",        kSpecularGlossiness,          "KHR_materials_sheen",
-        "KHR_materials_specular",   "KHR_materials_transmission", "KHR_materials_unlit",
-        "KHR_materials_volume"};
+    constexpr std::array<std::string_view, 11> kRead{"KHR_materials_anisotropy",
+                                                     "KHR_materials_clearcoat",
+                                                     "KHR_materials_diffuse_transmission",
+                                                     "KHR_materials_emissive_strength",
+                                                     "KHR_materials_ior",
+                                                     kSpecularGlossiness,
+                                                     "KHR_materials_sheen",
+                                                     "KHR_materials_specular",
+                                                     "KHR_materials_transmission",
+                                                     "KHR_materials_unlit",
+                                                     "KHR_materials_volume"};
     for (const auto& [name, value] : source.extensions) {
         const bool is_look = name.find("_materials_") != std::string::npos;
         if (is_look && std::ranges::find(kRead, name) == kRead.end()) {

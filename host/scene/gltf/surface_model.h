@@ -17,6 +17,9 @@ struct SurfaceModel {
     Parameter roughness = parameter_of(1.0f);  ///< perceptual: the square root of GGX's α
     Parameter emission = parameter_of(0.0f);   ///< a radiance
     Parameter transmission = parameter_of(0.0f);
+    /// The share of the diffuse part that goes through, and its colour, as through a thin sheet.
+    Parameter diffuse_transmission = parameter_of(0.0f);
+    Parameter passed_color = parameter_of(1.0f);
     Parameter clearcoat = parameter_of(0.0f);
     Parameter sheen = parameter_of(0.0f);
     double index = kUsualIndex;             ///< that gives the reflections of what is no metal their strength
@@ -34,7 +37,9 @@ struct SurfaceModel {
     /// Whether nothing lies above the base that reflects.
     [[nodiscard]] bool is_diffuse() const;
     [[nodiscard]] bool transmits() const { return transmission.value.x > 0.0f; }
+    [[nodiscard]] bool diffuses_through() const { return diffuse_transmission.value.x > 0.0f; }
     [[nodiscard]] bool is_metal() const { return metallic.value.x > 0.0f; }
+    [[nodiscard]] bool is_all_metal() const { return metallic.texture < 0 && metallic.value.x >= 1.0f; }
     /// Whether none of it is opaque.
     [[nodiscard]] bool is_glass() const {
         return transmission.texture < 0 && transmission.value.x >= 1.0f && !is_metal();

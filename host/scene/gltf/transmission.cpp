@@ -11,6 +11,7 @@ namespace nearlight::core::gltf {
 namespace {
 
 constexpr const char* kVolume = "KHR_materials_volume";
+constexpr const char* kDiffuseTransmission = "KHR_materials_diffuse_transmission";
 
 double transmission_factor(const tinygltf::Material& source) {
     return number_of(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
@@ -51,6 +52,27 @@ Parameter alpha_of_body(const tinygltf::Material& source, const SurfaceContext& 
     return parameter_of(roughness * roughness);
 }
 
+/// What KHR_materials_diffuse_transmission says of leaves, curtains and lampshades.
+void read_diffuse_transmission(const tinygltf::Material& source, const SurfaceContext& context,
+                               SurfaceModel& surface) {
+    const double factor = number_of(source.extensions, kDiffuseTransmission, "diffuseTransmissionFactor", 0);
+    if (!(factor > 0) || surface.is_all_metal()) {
+        return;
+    }
+    surface.diffuse_transmission = context.textures.textured_by(
+        texture_of(source.extensions, kDiffuseTransmission, "diffuseTransmissionTexture"), grey(factor),
+        {.channel = 3}, context.sets);
+    const Vec3 color =
+        color_of(source.extensions, kDiffuseTransmission, "diffuseTransmissionColorFactor", {1, 1, 1});
+    surface.passed_color = context.textures.textured_by(
+        texture_of(source.extensions, kDiffuseTransmission, "diffuseTransmissionColorTexture"),
+        clamped(color), {}, context.sets);
+    if (!surface.is_thin) {
+        context.approximate(std::string(kDiffuseTransmission) +
+                            ": bodies are taken for thin sheets, which absorb nothing inside");
+    }
+}
+
 }  // namespace
 
 Volume volume_of(const tinygltf::Material& source) {
@@ -76,6 +98,7 @@ void read_transmission(const tinygltf::Material& source, const SurfaceContext& c
     if (surface.transmits() && volume.absorbs()) {
         surface.absorption = absorption_of(source, context);
     }
+    read_diffuse_transmission(source, context, surface);
 }
 
 }  // namespace nearlight::core::gltf
