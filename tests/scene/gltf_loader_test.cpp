@@ -203,6 +203,26 @@ TEST_F(GltfLoader, LongChainsAndDeepExtrasDoNotCrash) {
                 HasSubstr("nested 20001 levels deep"));
 }
 
+/// Extensions of materials and formats of images are noted by the materials that have them.
+TEST_F(GltfLoader, ExtensionsThatAreNotReadAreNotedByName) {
+    gltf_.root["extensionsUsed"] = {
+        "KHR_texture_transform",      "KHR_xmp_json_ld",    "MSFT_lod",
+        "KHR_draco_mesh_compression", "KHR_texture_basisu", "KHR_materials_iridescence",
+        "KHR_techniques_webgl"};
+    gltf_.root["extensions"]["EXT_lights_image_based"]["lights"] = json::array();
+    gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = json::array();
+    std::vector<std::string> left_out;
+    for (const Note& note : load().notes) {
+        if (note.text.find("left out") != std::string::npos) {
+            left_out.push_back(note.text);
+        }
+    }
+    EXPECT_THAT(left_out, testing::ElementsAre("KHR_techniques_webgl is left out",
+                                               "EXT_lights_image_based is left out"));
+    EXPECT_THAT(file_error([&] { load({.parameters = {}, .strict = true}); }),
+                HasSubstr("KHR_techniques_webgl is left out"));
+}
+
 TEST_F(GltfLoader, StrictRefusesApproximations) {
     gltf_.primitive()["mode"] = 0;
     EXPECT_THAT(file_error([&] { load({.parameters = {}, .strict = true}); }), HasSubstr("points and lines"));

@@ -46,6 +46,34 @@ constexpr std::string_view kKnownExtensions[] = {
     "KHR_xmp_json_ld",
 };
 
+/// Formats of images. One that is not read is noted where a material shows it and no other image is beside
+/// it.
+constexpr std::string_view kImageFormats[] = {
+    "EXT_texture_avif",
+    "GOOGLE_texture_basis",
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
+};
+
+/// Extensions that say nothing of the picture, beside those of kKnownExtensions.
+constexpr std::string_view kOutOfSight[] = {
+    "AGI_articulations",
+    "AGI_stk_metadata",
+    "EXT_instance_features",
+    "EXT_mesh_manifold",
+    "FB_geometry_metadata",
+    "KHR_audio_emitter",
+    "KHR_interactivity",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_physics_rigid_bodies",
+    "KHR_xmp",
+    "MSFT_audio_emitter",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+};
+
 /// Compressions, each of which takes a library that a build may lack.
 struct Compression {
     std::string_view extension;
@@ -64,6 +92,11 @@ const Compression* compression_of(std::string_view extension) {
     return found == std::end(kCompressions) ? nullptr : found;
 }
 
+template <std::size_t Count>
+bool lists(const std::string_view (&names)[Count], std::string_view extension) {
+    return std::ranges::find(names, extension) != std::end(names);
+}
+
 /// Fails if an extension that the file requires is not supported, or not in this build.
 void check_required(const GltfFile& file, const std::string& extension) {
     const Compression* const compression = compression_of(extension);
@@ -72,8 +105,7 @@ void check_required(const GltfFile& file, const std::string& extension) {
                   compression->library + " (Debian's " + compression->package +
                   "), or export the scene without it");
     }
-    if (compression == nullptr &&
-        std::ranges::find(kKnownExtensions, extension) == std::end(kKnownExtensions)) {
+    if (compression == nullptr && !lists(kKnownExtensions, extension)) {
         file.fail("needs the extension " + extension +
                   ", which is not supported; export the scene without it");
     }
@@ -239,6 +271,21 @@ GltfFile read_gltf(const std::filesystem::path& path) {
         decode_meshopt(file);
     }
     return file;
+}
+
+void note_unread_extensions(const GltfFile& file, NoteSink& notes) {
+    const auto note = [&](const std::string& name) {
+        const bool is_read = lists(kKnownExtensions, name) || compression_of(name) != nullptr;
+        const bool is_noted_in_use =
+            lists(kImageFormats, name) || name.find("_materials_") != std::string::npos;
+        if (!is_read && !is_noted_in_use && !lists(kOutOfSight, name)) {
+            notes.approximation(file.path, 0, name + " is left out");
+        }
+    };
+    std::ranges::for_each(file.model.extensionsUsed, note);
+    for (const auto& [name, value] : file.model.extensions) {
+        note(name);
+    }
 }
 
 double number_of(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,

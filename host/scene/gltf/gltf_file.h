@@ -36,6 +36,10 @@ struct GltfFile {
 /// broken or needs an extension that is not supported.
 GltfFile read_gltf(const std::filesystem::path& path);
 
+/// Notes the extensions that the file uses and nothing here reads, by their names. Those of materials and
+/// textures are noted by whoever makes these.
+void note_unread_extensions(const GltfFile& file, NoteSink& notes);
+
 /// The name of a file that a URI stands for, with `%20` and its like decoded.
 std::string decoded_uri(const std::string& uri);
 

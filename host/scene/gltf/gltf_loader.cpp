@@ -50,6 +50,7 @@ Scene load_gltf_scene(const std::filesystem::path& path, const LoadOptions& opti
     gltf::GltfFile file = gltf::read_gltf(path);
     Scene scene = begin_model(path);
     NoteSink notes(scene.notes, options.strict);
+    gltf::note_unread_extensions(file, notes);
     if (options.lists_animations) {
         scene.animations = gltf::list_animations(file);
     }
