@@ -160,6 +160,35 @@ TEST_F(GltfLook, SpecularGlossinessIsConverted) {
     expect_close(mirror.reflectance.value, {1, 1, 1});
 }
 
+/// A texture of cloth beside copper.
+TEST_F(GltfLook, SpecularTexturesSayWhatIsMetal) {
+    add_two_texels({0.04f, 0.04f, 0.04f, 1, 0.95f, 0.64f, 0.54f, 0.5f});
+    json& look = extension("KHR_materials_pbrSpecularGlossiness");
+    look = {{"diffuseFactor", {0.5, 0.4, 0.3, 1}}, {"specularGlossinessTexture", {{"index", 0}}}};
+    const Scene scene = load();
+    const Material blend = top_material(scene);
+    ASSERT_EQ(blend.model, NEARLIGHT_BSDF_BLEND);
+    EXPECT_EQ(parameter_value(scene, blend.reflectance, 0.25f, 0.5f).x, 0.0f);
+    EXPECT_EQ(parameter_value(scene, blend.reflectance, 0.75f, 0.5f).x, 1.0f);
+    const Material cloth = scene.materials.at(scene.materials.at(blend.child[0]).child[0]);
+    EXPECT_EQ(cloth.metallic.value.x, 0.0f);
+    expect_close(cloth.reflectance.value, {0.48f, 0.384f, 0.288f}, 1e-4f);
+    EXPECT_EQ(cloth.reflectance.texture, -1);
+    EXPECT_NEAR(cloth.eta.x, 1.5f, 1e-3f);
+    const Material metal = scene.materials.at(scene.materials.at(blend.child[1]).child[0]);
+    EXPECT_EQ(metal.metallic.value.x, 1.0f);
+    expect_close(parameter_value(scene, metal.reflectance, 0.75f, 0.5f), {0.95f, 0.64f, 0.54f}, 1e-3f);
+    for (const Material& side : {cloth, metal}) {
+        EXPECT_NEAR(parameter_value(scene, side.roughness, 0.75f, 0.5f).x, 0.5f, 1e-3f);
+    }
+    look["specularFactor"] = {0.3, 0.3, 0.3};
+    const Scene dark = load();
+    ASSERT_EQ(top_material(dark).model, NEARLIGHT_BSDF_TWO_SIDED) << "nothing reflects like metal";
+    EXPECT_EQ(innermost(dark).metallic.value.x, 0.0f);
+    look["specularFactor"] = {0.5, 0.5, 0.5};
+    EXPECT_EQ(top_material(load()).model, NEARLIGHT_BSDF_BLEND);
+}
+
 TEST_F(GltfLook, NormalMapsHaveTheirScaleAndKnowMirroredCoordinates) {
     add_texel({0.75f, 0.75f, 1, 1});
     gltf_.material()["normalTexture"] = {{"index", 0}, {"scale", 0.5}};

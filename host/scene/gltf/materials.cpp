@@ -93,6 +93,9 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
     if (surface.is_unlit) {
         return add(diffuse_material({0, 0, 0}));
     }
+    if (surface.has_metal_color) {
+        return add_mixture(surface);
+    }
     if (surface.is_diffuse()) {
         Material base = diffuse_material({1, 1, 1});
         base.reflectance = surface.color;
@@ -110,6 +113,19 @@ uint MaterialMaker::add_opaque(const SurfaceModel& surface) {
         material.flags |= NEARLIGHT_MATERIAL_TANGENT;
     }
     return add_two_sided(scene_, material);
+}
+
+/// Metal with a colour of its own beside the rest of a surface.
+uint MaterialMaker::add_mixture(const SurfaceModel& surface) {
+    SurfaceModel metal = surface;
+    metal.has_metal_color = false;
+    metal.metallic = parameter_of(1.0f);
+    metal.color = surface.metal_color;
+    SurfaceModel rest = surface;
+    rest.has_metal_color = false;
+    rest.metallic = parameter_of(0.0f);
+    const uint first = add_opaque(rest);
+    return add(blend_material(surface.metallic, first, add_opaque(metal)));
 }
 
 /// A sheet through which all light diffuses that the layers of the surface leave to it.

@@ -59,6 +59,7 @@ class MaterialMaker {
     [[nodiscard]] uint make(const tinygltf::Material& source, const MaterialUse& use);
     [[nodiscard]] uint add_surface(const SurfaceModel& surface);
     [[nodiscard]] uint add_opaque(const SurfaceModel& surface);
+    [[nodiscard]] uint add_mixture(const SurfaceModel& surface);
     [[nodiscard]] uint add_sheet(const SurfaceModel& surface);
     [[nodiscard]] Material layered_base(const SurfaceModel& surface);
     [[nodiscard]] uint add_glass(const SurfaceModel& surface);

@@ -2,6 +2,7 @@
 #include "host/scene/gltf/reflections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -49,9 +50,63 @@ void read_index(const tinygltf::Material& source, const SurfaceContext& context,
                         : kMinIndex;
 }
 
-/// Metalness and roughness of materials that are given by the colour of their reflections, which take from
-/// the diffuse colour as much as their brightest channel has. Those that reflect more than any dielectric and
-/// more than they scatter are taken for metals.
+/// The luminance of reflections above which a place is metal, because no common dielectric reflects as much.
+constexpr float kLeastOfMetals = 0.25f;
+
+/// What a material reflects in places that are metal and in others.
+struct ReflectedParts {
+    bool has_metal = false;
+    bool has_rest = false;
+    Vec3 mean_of_rest{0, 0, 0};
+};
+
+ReflectedParts parts_of(const Parameter& reflected, const TextureMaker& textures) {
+    ReflectedParts parts;
+    std::array<double, 4> sum{};  // of three channels, and how many
+    textures.visit_texels(reflected, [&](Vec3 color) {
+        if (luminance(color) >= kLeastOfMetals) {
+            parts.has_metal = true;
+            return;
+        }
+        const std::array<float, 4> texel{color.x, color.y, color.z, 1.0f};
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum[i] += static_cast<double>(texel[i]);
+        }
+    });
+    parts.has_rest = sum[3] > 0.0;
+    if (parts.has_rest) {
+        parts.mean_of_rest = {static_cast<float>(sum[0] / sum[3]), static_cast<float>(sum[1] / sum[3]),
+                              static_cast<float>(sum[2] / sum[3])};
+    }
+    return parts;
+}
+
+/// Gives the surface a metalness by the colour of its reflections, which take from the diffuse colour as much
+/// as their brightest channel has. A colour for all of the surface is that of a metal only if it reflects
+/// more than it scatters.
+void part_metal_from_rest(const Parameter& reflected, const TextureMaker& textures, SurfaceModel& surface) {
+    ReflectedParts parts = parts_of(reflected, textures);
+    if (reflected.texture < 0) {
+        const Vec3 scattered = textures.mean(surface.color) * (1.0f - max_component(reflected.value));
+        parts.has_metal = parts.has_metal && luminance(reflected.value) > luminance(scattered);
+        parts.has_rest = !parts.has_metal;
+        parts.mean_of_rest = reflected.value;
+    }
+    surface.metallic = parameter_of(parts.has_metal ? 1.0f : 0.0f);
+    surface.has_metal_color = parts.has_metal && parts.has_rest;
+    surface.metal_color = reflected;
+    if (parts.has_metal && !parts.has_rest) {
+        surface.color = reflected;
+        return;
+    }
+    surface.color.value *= 1.0f - std::min(max_component(parts.mean_of_rest), 1.0f);
+    const double mean = static_cast<double>(luminance(parts.mean_of_rest));
+    surface.dielectric_reflects = mean > 0.0;
+    surface.index =
+        std::max(index_of_reflectance(std::min(mean, static_cast<double>(kLeastOfMetals))), kMinIndex);
+}
+
+/// Materials that are given by the colour of their reflections.
 void read_specular_glossiness(const tinygltf::Material& source, const SurfaceContext& context,
                               SurfaceModel& surface) {
     context.approximate(std::string(kSpecularGlossiness) + " is converted to metalness and roughness");
@@ -67,16 +122,11 @@ void read_specular_glossiness(const tinygltf::Material& source, const SurfaceCon
             ? parameter_of(grey(1.0 - static_cast<double>(glossiness)))
             : context.textures.textured_by(
                   texture, {1, 1, 1}, {.channel = 3, .is_inverse = true, .factor = glossiness}, context.sets);
-    const Vec3 mean_reflected = context.textures.mean(reflected);
-    surface.color.value = surface.color.value * (1.0f - std::min(max_component(mean_reflected), 1.0f));
-    const float mean = luminance(mean_reflected);
-    const bool is_metal = mean > 0.25f && mean > luminance(context.textures.mean(surface.color));
-    surface.metallic = parameter_of(is_metal ? 1.0f : 0.0f);
-    if (is_metal) {
-        surface.color = reflected;
+    part_metal_from_rest(reflected, context.textures, surface);
+    if (surface.has_metal_color) {
+        surface.metallic = context.textures.textured_by(texture, {1, 1, 1}, {.is_number = true}, context.sets,
+                                                        0, kLeastOfMetals / luminance(specular));
     }
-    surface.dielectric_reflects = mean > 0.0f;
-    surface.index = std::max(index_of_reflectance(std::min(static_cast<double>(mean), 0.25)), kMinIndex);
 }
 
 void read_metallic_roughness(const tinygltf::Material& source, const SurfaceContext& context,

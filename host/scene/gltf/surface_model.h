@@ -14,6 +14,9 @@ struct SurfaceModel {
     /// From the alpha of vertices, which multiplies the other opacity.
     Parameter vertex_opacity = parameter_of(1.0f);
     Parameter metallic = parameter_of(0.0f);
+    /// What is metal has a colour of its own, and `color` is that of the rest.
+    bool has_metal_color = false;
+    Parameter metal_color = parameter_of(1.0f);
     Parameter roughness = parameter_of(1.0f);  ///< perceptual: the square root of GGX's α
     Parameter emission = parameter_of(0.0f);   ///< a radiance
     Parameter transmission = parameter_of(0.0f);

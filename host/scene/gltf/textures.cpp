@@ -252,6 +252,21 @@ Vec3 TextureMaker::mean(const Parameter& parameter) const {
     return mean_value(scene_, parameter);
 }
 
+void TextureMaker::visit_texels(const Parameter& parameter, const std::function<void(Vec3)>& visit) const {
+    const int image =
+        parameter.texture < 0 ? -1 : scene_.textures[static_cast<std::size_t>(parameter.texture)].image;
+    if (image < 0) {
+        visit(parameter.value);
+        return;
+    }
+    const TextureImage& texels = scene_.images[static_cast<std::size_t>(image)];
+    const std::size_t count =
+        static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
+    for (std::size_t i = 0; i < count; ++i) {
+        visit(parameter.value * texel_color(texels, i));
+    }
+}
+
 bool TextureMaker::show_same(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b) {
     const auto source = [&](const tinygltf::TextureInfo& info) {
         const auto index = static_cast<std::size_t>(info.index);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -64,6 +65,8 @@ class TextureMaker {
     Parameter vertex_number(float cutoff);
     /// The mean of a parameter over its texture.
     [[nodiscard]] Vec3 mean(const Parameter& parameter) const;
+    /// Calls visit() with what the parameter is at each texel of its image, or once if it has none.
+    void visit_texels(const Parameter& parameter, const std::function<void(Vec3)>& visit) const;
     /// Whether both textures show the same image at the same places of a surface.
     [[nodiscard]] bool show_same(const tinygltf::TextureInfo& a, const tinygltf::TextureInfo& b);
 
