@@ -32,7 +32,7 @@ class Race:
     seconds: float           # a curve ends with the first point that takes longer
     doublings: int           # or with this number of points: work 1, 2, 4, ...
     truth_work: tuple        # of each half of a converged picture: passes of nearlight, and the work of others
-    denoise: tuple           # (False,), or (False, True)
+    denoise: tuple           # of (False, True), those to be raced
 
     def scene(self, path, size, tell):
         """All results of a scene as plain values. Renderers that cannot read it are left out, with a line that says why."""
@@ -47,7 +47,7 @@ class Race:
         for renderer in renderers:
             for denoise in self.denoise:
                 tell(f'{renderer.label}{", denoised" if denoise else ""}')
-                truth = truths[renderer.denoised_limit if denoise else renderer.limit]
+                truth = truths[renderer.denoised_limit(path) if denoise else renderer.limit]
                 points = self._points(renderer, path, size, denoise, truth, tell)
                 curves.append({'renderer': renderer.label, 'denoised': denoise, 'points': points})
         names = list(halves)
@@ -86,7 +86,7 @@ class Race:
         """The limits of denoised pictures that others do not have."""
         truths = {}
         for renderer in renderers:
-            limit = renderer.denoised_limit
+            limit = renderer.denoised_limit(path)
             if limit != renderer.limit and limit not in truths:
                 tell(f'{renderer.label}: converged picture, {limit}')
                 truths[limit] = self._truth(limit, [self._converged(renderer, path, size, True)], key)

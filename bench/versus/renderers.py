@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The renderers of the race. Each makes a picture of a scene with a given amount of work and says how long that took.
 
-Renderers with the same `limit` converge to the same picture, those of one `family` by the same code. `denoised_limit` is what their denoised
-pictures are made of.
+Renderers with the same `limit` converge to the same picture, those of one `family` by the same code. `denoised_limit` says what their
+denoised pictures of a scene are made of.
 """
 from dataclasses import dataclass
 import hashlib
@@ -39,6 +39,13 @@ def files_of_scene(path):
         names = re.findall(r'<string\s+name="filename"\s+value="([^"]+)"', file.read())
     found = [os.path.join(os.path.dirname(path), name) for name in sorted(set(names))]
     return [path, *filter(os.path.isfile, found)]
+
+
+def has_box_filter(path):
+    """Whether the scene's film has a box filter, and no other."""
+    with open(path, encoding='utf-8', errors='replace') as file:
+        tags = re.findall(r'<rfilter\b[^>]*>', file.read())
+    return bool(tags) and all(re.search(r'type\s*=\s*"box"', tag) for tag in tags)
 
 
 def hash_of_scripts(*names):
@@ -101,7 +108,7 @@ class Nearlight:
     """nearlight at its defaults. Its work is passes."""
     label = 'nearlight'
     family = 'nearlight'
-    limit = denoised_limit = 'the scene'
+    limit = 'the scene'
 
     def __init__(self, program, folder, max_seconds):
         self.program, self.folder, self.max_seconds = program, folder, max_seconds
@@ -129,6 +136,9 @@ class Nearlight:
         render = seconds['generate'] + seconds['gather'] + seconds.get('denoise', 0)
         return Picture(read_exr(out), {'render': render, 'process': process, 'processor': processor})
 
+    def denoised_limit(self, _scene):
+        return self.limit
+
     def flip(self, picture, truth):
         """The mean FLIP of two files."""
         output, _, _ = timed([self.program, 'diff', picture, truth, '--json'], self.max_seconds)
@@ -141,11 +151,13 @@ class Mitsuba:
 
     family = 'Mitsuba 3'
     limit = 'the scene'
-    denoised_limit = 'the scene by a box filter'
 
     def __init__(self, variant, folder, max_seconds):
         self.variant, self.folder, self.max_seconds = variant, folder, max_seconds
         self.label = 'Mitsuba 3 ' + {'llvm_ad_rgb': 'LLVM', 'scalar_rgb': 'scalar'}[variant]
+
+    def denoised_limit(self, scene):
+        return self.limit if has_box_filter(scene) else 'the scene by a box filter'
 
     def missing(self):
         absent = [name for name in ('numpy', 'mitsuba') if importlib.util.find_spec(name) is None]
@@ -169,11 +181,14 @@ class Cycles:
     """Blender's path tracer. Its work is 16 samples a pixel. It wants scenes in Blender's own form, with materials of which some
     differ from Mitsuba's, and it weighs samples by a filter of its own: it has a limit of its own."""
     family = 'Cycles'
-    limit = denoised_limit = 'Cycles'
+    limit = 'Cycles'
 
     def __init__(self, guided, folder, max_seconds):
         self.guided, self.folder, self.max_seconds = guided, folder, max_seconds
         self.label = 'Cycles, guided' if guided else 'Cycles'
+
+    def denoised_limit(self, _scene):
+        return self.limit
 
     def missing(self):
         absent = [name for name in ('numpy', 'mitsuba', 'bpy') if importlib.util.find_spec(name) is None]

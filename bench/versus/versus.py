@@ -28,7 +28,7 @@ def parsed_arguments():
     parser.add_argument('--truth', type=int, nargs=2, default=(64, 128), metavar=('PASSES', 'WORK'),
                         help='passes of nearlight, and times 16 samples of others, for each half of a converged picture')
     parser.add_argument('--only', default='', help='renderers whose names contain one of these, separated by commas, besides nearlight')
-    parser.add_argument('--raw', action='store_true', help='no denoised pictures')
+    parser.add_argument('--pictures', choices=('both', 'raw', 'denoised'), default='both', help='which are raced')
     parser.add_argument('--limit', type=float, default=7200, help='maximum seconds of one picture')
     parser.add_argument('--clock', choices=('render', 'process', 'processor'), default='render', help='the seconds of the plots')
     parser.add_argument('--write', metavar='FILE', help='write the report there, and its plots beside it')
@@ -55,8 +55,11 @@ def run(arguments):
     if nearlight not in renderers:
         print('skipped: ' + notes[0])
         return SKIPPED
-    denoise = (False,) if arguments.raw else (False, True)
-    if len(denoise) > 1 and not can_denoise():
+    denoise = {'both': (False, True), 'raw': (False,), 'denoised': (True,)}[arguments.pictures]
+    if True in denoise and not can_denoise():
+        if arguments.pictures == 'denoised':
+            print('skipped: no Open Image Denoise; run scripts/setup --denoise')
+            return SKIPPED
         denoise = (False,)
         notes.append('denoised pictures are left out: no Open Image Denoise; run scripts/setup --denoise')
     for note in notes:
