@@ -128,7 +128,8 @@ kernel void camera_lights_refine(const global uint* restrict pixels, uint first,
     global float* sum = sums + (size_t)pixel * NEARLIGHT_FILM_CHANNELS;
     const float3 before[2] = {load3(light->first), load3(light->second)};
     const float3 more[2] = {load3(added[index].first), load3(added[index].second)};
-    // The mean over all samples so far is (before + more) · scale, and it was before · 2 · scale.
+    // The film's sum, over as many samples as before any round, is (before + more) · scale now, and it was
+    // before · 2 · scale.
     const float3 of_first = scale * (more[0] - before[0]);
     const float3 change = of_first + scale * (more[1] - before[1]);
     const float changes[3] = {change.x, change.y, change.z};

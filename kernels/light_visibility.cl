@@ -3,9 +3,9 @@
 //
 // One work-item for each triangle of `ids`; any work-group size. It sets selected[id] to 1 if any light
 // reaches one of a few points of the triangle on a side that reflects, and leaves the entries of other
-// triangles alone. This only steers where VPLs are placed: a triangle that is missed here is left to light
-// tracing, so no light is lost (docs/method.md). One point for each area_per_point (m²) of a triangle is
-// therefore enough, up to MAX_POINTS.
+// triangles alone. An environment's map counts as reaching all of them. This only steers where VPLs are
+// placed: a triangle that is missed here is left to light tracing, so no light is lost (docs/method.md). One
+// point for each area_per_point (m²) of a triangle is therefore enough, up to MAX_POINTS.
 
 #include "lib/light/sample.cl"
 #include "lib/random.cl"

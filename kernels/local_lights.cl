@@ -29,8 +29,8 @@
 // - local_light_density: one work-item for each light listed in `indices` divides its power by p and writes
 //   the receivers that see it as bits.
 // - local_light_gather: one work-item for each receiver adds the lights of its packet to its irradiance.
-// Any work-group size. Random numbers are keyed by the position of the packet's first receiver, and no packet
-// asks another, so no cut of the picture changes the result.
+// Any work-group size. Random numbers are keyed by the position of the packet's first present receiver, and
+// no packet asks another, so no division of the picture changes the result.
 
 #include "lib/path_walk.cl"
 #include "lib/vpl.cl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Casts given rays: the traversal of lib/ray_tree.cl by itself, for openings (host/session/openings.cpp), for
-// what lights a point (light_shares.cpp), and to compare it with other ray casters ray by ray.
+// what lights a point (host/session/light_shares.cpp), and to compare it with other ray casters ray by ray.
 //
 // One work-item for each ray; any work-group size.
 

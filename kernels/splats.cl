@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splats: samples count in all pixels whose reconstruction filter reaches them. So a pixel is the mean of far
-// more samples than its own, and has a fraction of the noise: 4/9 with a tent, under a third with a Gaussian.
+// more samples than its own, and has a fraction of their variance: 4/9 with a tent, under a third with a
+// Gaussian.
 //
 // Samples are spread evenly over their pixel and weighted by their area (lib/camera.cl). Each pixel keeps
 // sums of its own samples for every pixel that they reach, weighted by the filter of that one: splat_rows()²

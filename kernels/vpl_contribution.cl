@@ -4,14 +4,14 @@
 // Shading normals of VPLs do not count here, nor do coats of receivers for the light that arrives. Without
 // them the matrix is symmetric in its geometry, so the gather serves here too, with the roles exchanged: the
 // receivers of the camera send out importance as VPLs send light (importons, host/stages/pilot_view.h), and
-// the VPLs receive it through their coats. The response is the reflectance (divided by π) times the weight of
-// the camera path. The sums are over the importons:
-// - With squared = 0, it is Σ luminance(response · G · V · power/π), which the VPL brings.
-// - With squared = 1, it is the root of Σ |response · G · V · power/π|² over R, G, B. If VPLs are chosen by
+// the VPLs receive it through their coats. The sums are over the importons, and `response` is
+// Importon.response:
+// - With squared = 0, it is Σ luminance(response/π · G · V · power/π), which the VPL brings.
+// - With squared = 1, it is the root of Σ |response/π · G · V · power/π|² over R, G, B. If VPLs are chosen by
 //   chance, the error of the picture is smallest when the probabilities follow this. The importance must be
 //   that of squares.
-// - `vpl_group_contribution` keeps the three channels for each group of importons (a part of the picture): Σ
-//   response · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
+// - `vpl_group_contribution` keeps the three channels for each group of importons (a part of the picture):
+//   scale · Σ response/π · G · V · power/π over the group, in slot (VPL · group_count + group) · 3 + channel.
 // One work-item for each VPL, or for each VPL and group; any work-group size.
 //
 // `importance_thresholds` says before the gather which importons are not worth a ray, because few make up

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The close range as a predicate on points. Placement, light tracing and the camera pass share it, so that
+// The close range as a predicate on points. Patches, light tracing and the camera pass share it, so that
 // what one of them leaves out is exactly what another supplies.
 #ifndef NEARLIGHT_LIB_CLOSE_RANGE
 #define NEARLIGHT_LIB_CLOSE_RANGE

@@ -248,9 +248,8 @@ static inline float part_beside_aimed(const ContinuedPath* path, const WantedLig
                : 1.0f;
 }
 
-/// Adds the light that the path meets after `surfaces` surfaces, which counts `scale` times. What came
-/// straight through veils is direct light, of the receiver or of the first surface of a bundle's path. The
-/// bundle's goes into the draw.
+/// Adds the light that the path meets after `surfaces` surfaces. What came straight through veils is direct
+/// light, of the receiver or of the first surface of a bundle's path. The bundle's goes into the draw.
 static inline void add_met_light(const SceneView* scene, ContinuedPath* path, const WantedLight* wanted,
                                  uint surfaces, float u, FoundReflection* found) {
     const float scale = surfaces < wanted->max_edges ? path->way.short_scale : path->way.long_scale;

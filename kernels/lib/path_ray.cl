@@ -119,7 +119,7 @@ typedef struct PathRay {
     uint veils;          // veils that the ray has passed since it was scattered
 } PathRay;
 
-/// Starts a path that carries all light back along `direction`. Its throughput and pdf are still to be set.
+/// Starts a path that carries all light back along `direction`. begin_ray() sets the rest.
 static inline PathRay first_ray(float3 direction) {
     PathRay ray;
     ray.direction = direction;

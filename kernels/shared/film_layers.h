@@ -11,12 +11,12 @@
 //     direction  the unit vector along their sum;
 //     first      the value of the first sample that met something on the pixel's own square, or, if there is
 //                none, anywhere, because positions and depths cannot be averaged across an edge;
-//     depth      the same, for the sum whose sign tells the two apart;
+//     depth      the same for a distance, whose sum is negative while it is not of the pixel's own square;
 //     light      the sum of the layers direct and indirect, for which nothing is added up separately;
 //     spread     the variance of the pixel's light, judged by how far apart the means of the first and of the
 //                second half of the samples lie; 0 for a single sample.
-//   Where samples count in the pixels around theirs, too, beauty, direct, indirect, variance and A are means
-//   over all samples that reach the pixel, with the filter's weights (host/session/splat_rows.h).
+//   Where samples count in the pixels around theirs, too, beauty, direct, indirect, variance and A are
+//   those of all samples that reach the pixel, with the filter's weights (host/session/splat_rows.h).
 //   passes     says how several passes become one picture: `mean` averages them, `first` keeps the first,
 //              and `variance` is the variance of the mean, judged by the passes' own variances and by how
 //              far apart the passes lie (host/session/pass_average.h).
@@ -43,8 +43,8 @@
     LAYER(ALPHA, "A", A, mean, mean, asked, half)
 
 /// The halves of a pixel's samples are not drawn one by one but complement each other: they ask different
-/// strata of the VPLs and lie in each other's gaps in the pixel. This is what it leaves of the variance
-/// (bench/log/error.md).
+/// strata of the VPLs and lie in each other's gaps in the pixel. So the variance of their mean is this part
+/// of what their difference would tell of independent halves (bench/log/error.md).
 #define NEARLIGHT_HALVES_TO_WHOLE 0.72f
 
 // How many channels each word of the column `channels` stands for.

@@ -3,7 +3,7 @@
 #ifndef NEARLIGHT_SHARED_GATHER_RECORD_H
 #define NEARLIGHT_SHARED_GATHER_RECORD_H
 
-#define NEARLIGHT_PAIR_CULLED 0  // no ray was traced: a cosine is not positive, or the term is not finite
+#define NEARLIGHT_PAIR_CULLED 0  // no ray was traced; open_term() in gather_rays.cl says when
 #define NEARLIGHT_PAIR_VISIBLE 1
 #define NEARLIGHT_PAIR_OCCLUDED 2
 

@@ -32,11 +32,12 @@ namespace nearlight::core {
 typedef struct Emitter {
     Vec3 position;  // point, spot and projector; sphere: its centre; cylinder: the middle of one end
     uint type;
-    Vec3 direction;  // spot, projector, cylinder: unit vector along the axis; directional: that of the light
-    uint triangle;   // area light: index into the triangle array of its first triangle
-    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
-                     // direction, W/m²; area lights, sun: radiance; environment: mean radiance
-    float area;      // area lights: m²; projector: of its image at the distance 1; sun: steradians
+    Vec3 direction;  // unit vector; spot, projector, cylinder: along the axis; directional: the way that
+                     // light goes
+    uint triangle;  // area light: index into the triangle array of its first triangle
+    Vec3 radiance;  // point, spot and projector: intensity, W/sr; directional: irradiance across the
+                    // direction, W/m²; area lights, sun: radiance; environment: mean radiance
+    float area;     // area lights: m²; projector: of its image at the distance 1; sun: steradians
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians
@@ -45,7 +46,7 @@ typedef struct Emitter {
     uint image;  // index of the texture plus 1; 0: none
     Vec3 y_axis;
     uint tree_way;        // its way down the tree of lights, a digit of base NEARLIGHT_LIGHT_TREE_WIDTH for
-                          // the child of each node, that of the root first
+                          // the child of each node; that of the root is the lowest
     float radius;         // sphere, cylinder: m
     float outer_radius;   // all its triangles lie within this distance of its centre or axis, m
     float length;         // cylinder: m
@@ -85,7 +86,7 @@ typedef struct Environment {
     Vec3 scene_center;
     float sun_height;      // 1 − cosine of the sun's half angle; 0: no sun
     Vec3 sun_direction;    // unit vector to the sun, in the world
-    float sun_half_chord;  // length of the vector from that one to the rim
+    float sun_half_chord;  // length of the vector from sun_direction to a unit vector to the rim
     Vec3 sun_radiance;
     uint interpolated;  // 1: radiance is interpolated between pixels; 0: it is constant over a pixel
     uint block_size;    // columns and rows of pixels of a block (lib/light/environment.cl)

@@ -17,7 +17,7 @@ typedef struct CutNode {
     Vec3 low;
     float power;  // sum over the VPLs, each in its strongest channel, W/sr
     Vec3 high;
-    float spread;   // maximum distance of a VPL's normal from `axis`
+    float spread;   // upper bound of the distance of a VPL's normal from `axis`
     Vec3 axis;      // mean of the normals, weighted by power; shorter than 1 where they differ
     uint children;  // the number of children in the 4 lowest bits, and the index of the first one above them
 } CutNode;
@@ -25,7 +25,7 @@ typedef struct CutNode {
 /// A part of a bundle's cut: a node, or a VPL where the highest bit is set.
 typedef struct CutEntry {
     uint place;
-    float bound;  // about what it could bring to the bundle
+    float bound;  // about what it could bring to the bundle: mean irradiance, W/m²
 } CutEntry;
 #define NEARLIGHT_CUT_VPL 0x80000000u
 

@@ -16,9 +16,9 @@ namespace nearlight::core {
 /// follows the distance between VPLs of walks. E is a rough estimate whose random numbers are hashes of y.
 /// The radius is thus a function of the place alone and does not depend on the VPLs there.
 typedef struct GatherRadius {
-    float max_radius;  // m
-    float min_radius;  // m
-    float at_unit_light;
+    float max_radius;     // m
+    float min_radius;     // m
+    float at_unit_light;  // m·√(W/m²); infinite: the level is 0 everywhere
     uint seed;
 } GatherRadius;
 
@@ -30,7 +30,7 @@ typedef struct LocalLightParams {
     uint rays_per_receiver;
     uint vpl_count;
     uint connections;     // from each light to VPLs
-    uint bounce_count;    // max steps that light takes to a light
+    uint bounce_count;    // max edges of a path from an emitter to a light
     uint direct_samples;  // that each light takes of lamps and the environment
     uint pad0;
 } LocalLightParams;

@@ -18,7 +18,7 @@ typedef struct Parameter {
 } Parameter;
 
 // The models of surfaces (Material.model). A BSDF is D + S: D is its Lambertian part, S everything else.
-// kernels/lib/bsdf and host/reference/bsdf have a file for each model.
+// kernels/lib/bsdf and host/reference/bsdf have a file for each model that has an S.
 #define NEARLIGHT_BSDF_DIFFUSE 0u    // D = reflectance/π
 #define NEARLIGHT_BSDF_PLASTIC 1u    // D under a dielectric coat S, smooth or rough; see internal_reflectance
 #define NEARLIGHT_BSDF_CONDUCTOR 2u  // metal; S only

@@ -14,10 +14,11 @@ namespace nearlight::core {
 typedef struct SharedLight {
     Vec3 position;  // off its surface by triangle_stand_off()
     float weight;   // in proportion to which bundles draw; 0: no light
-    Vec3 normal;    // of the mesh
+    Vec3 normal;    // of the triangle, on the side of the finder
     ushort curve;   // row of the surface's transmission curve
     ushort veils;   // number of veils between a light behind veils and its finder
-    Vec3 radiance;  // W/m²/sr, which it sends to all sides times the curve
+    Vec3 radiance;  // W/m²/sr, which it sends to all sides times the curve; for lights of the sky, a factor
+                    // of the sky's radiance
     uint shading;   // shading normal, as pack_direction() packs it
 } SharedLight;
 #define NEARLIGHT_SHARED_LIGHTS 64u         // about how many near lights a bundle uses

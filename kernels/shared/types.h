@@ -79,7 +79,7 @@ typedef struct RayQuery {
 
 /// What a ray meets.
 typedef struct RayHit {
-    float t;    // t_max where nothing is hit
+    float t;    // where nothing is hit: t_max, or FLT_MAX if that is infinite
     float u;    // weight of v1
     float v;    // weight of v2
     uint slot;  // index into the BvhTriangle array, or 4 · block + column of the wide tree; ~0u: nothing hit
@@ -127,7 +127,7 @@ typedef struct Camera {
     Vec3 lens_x;  // half-axes of the lens; zero for a pinhole
     float far_clip;
     Vec3 lens_y;
-    float focus_distance;          // in lengths of `forward`
+    float focus_distance;          // times d: m along `forward`, unless the camera's transform scales
     float film_min_x, film_min_y;  // samples lie within these film positions
     float film_max_x, film_max_y;
     float filter_radius;  // pixels; 0: a box over the pixel's own square, which needs no tables
@@ -148,11 +148,11 @@ typedef struct Vpl {
     Vec3 normal;
     uint flags;
     Vec3 power;
-    uint shading;  // shading normal as pack_direction() packs it; for sending, only where the flag says so
+    uint shading;  // shading normal as pack_direction() packs it; for sending, only with NEARLIGHT_VPL_TILTED
 } Vpl;
 #define NEARLIGHT_VPL_CLOSE 1u   // lies in the close range
 #define NEARLIGHT_VPL_MAPPED 4u  // a normal or bump map tilts the shading normal
-#define NEARLIGHT_VPL_TILTED 8u  // the shading normal is not the mesh's
+#define NEARLIGHT_VPL_TILTED 8u  // the shading normal is another than `normal`
 // Bits 8 to 31 of Vpl.flags hold the row of the transmission curve.
 #define NEARLIGHT_VPL_CURVE_SHIFT 8
 
@@ -168,7 +168,9 @@ typedef struct Importon {
     Vec3 response;
     float pad1;
 } Importon;
-#define NEARLIGHT_IMPORTON_SQUARED 2u  // a gather sums the squares of its geometry terms
+// Importon.flags: a gather sums the squares of its geometry terms, and `response` is squared and divided by
+// π.
+#define NEARLIGHT_IMPORTON_SQUARED 2u
 
 /// A point placed on a triangle, on the surface itself.
 typedef struct SurfaceSample {
@@ -263,8 +265,9 @@ typedef struct CameraVertex {
     // what surfaces on the way reflect of them by S.
     Vec3 camera_light;
     float filter_weight;  // weight of the sample's light in its pixel; negative in negative lobes
-    // Radiance of a receiver of little weight, which is absent, and of the sky that the first surface
-    // reflects by S, as far as its bundle found it (shared_sky.cl).
+    // Radiance of a receiver that is absent because it weighs little or has few edges left (CameraLimits).
+    // The direct one also has what the first surface reflects by S of the sky that its bundle found
+    // (shared_sky.cl).
     Vec3 traced_direct;
     float film_x;  // of the sample, from the middle of its pixel, pixels to the right
     Vec3 traced_indirect;

@@ -165,7 +165,7 @@ static inline uint mapped_flag(const SurfaceBsdf* s) {
     return s->mapped ? NEARLIGHT_VPL_MAPPED : 0;
 }
 
-/// The factor of what a map takes away: 0 where its normal and the mesh's see light on different sides.
+/// The factor of what a map leaves of the light: 0 where its normal and the mesh's see it on different sides.
 static inline float map_factor(const SurfaceBsdf* s, float3 wi) {
     const bool flux = s->mode == BSDF_FLUX;
     const float3 light = flux ? s->wo : wi;
@@ -234,8 +234,8 @@ OUTLINED float3 bsdf_eval(const SceneView* scene, const SurfaceBsdf* s, float3 w
     return value * factor;
 }
 
-/// The probability with which a direction drawn from S with these numbers is a reflection, where S also lets
-/// light through and the lower numbers `u` reflect; otherwise 1.
+/// The probability with which a direction drawn from S with these numbers `v` is a reflection, where S also
+/// lets light through and the lower numbers `u` reflect; otherwise 1.
 static inline float reflection_probability(const SurfaceBsdf* s, float2 v) {
     const float3 wo = world_to_frame(&s->frame, s->wo);
     if (s->bsdf.model == NEARLIGHT_BSDF_THIN_DIELECTRIC || s->bsdf.model == NEARLIGHT_BSDF_CLEAR_GLASS) {

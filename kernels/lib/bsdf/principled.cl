@@ -47,12 +47,12 @@ static inline bool is_layered(const Bsdf* bsdf) {
     return bsdf->flags & NEARLIGHT_MATERIAL_LAYERED;
 }
 
-/// What light loses in roughness as it passes through a thin sheet [Burley 2015, figure 15].
+/// The factor of the roughness for light that passes through a thin sheet [Burley 2015, figure 15].
 static inline float thin_roughness_scale(const Bsdf* bsdf) {
     return 0.65f * bsdf->eta.x - 0.35f;
 }
 
-/// Probabilities of the ways of S; they add up to 1.
+/// Probabilities of the ways of S, roughly by what each sends. They add up to 1, unless S is black.
 typedef struct PrincipledWays {
     float facets;  // reflection or refraction by facets
     float clearcoat;

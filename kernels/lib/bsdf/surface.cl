@@ -2,8 +2,9 @@
 // The BSDF of a point that a ray met: textures looked up, and models that stand for others resolved.
 //
 // Which side of a surface the viewer is on follows from the shading normal alone, as in Mitsuba's path
-// integrator, and so does on which side of it light arrives. The geometric normal decides only where rays
-// start: a ray along wi starts on the side of the triangle that wi points to.
+// integrator, and so does on which side of it light arrives. The geometric normal decides where rays start: a
+// ray along wi starts on the side of the triangle that wi points to. For flux it also counts in
+// transport_factor().
 #ifndef NEARLIGHT_LIB_BSDF_SURFACE
 #define NEARLIGHT_LIB_BSDF_SURFACE
 
@@ -33,7 +34,7 @@ typedef struct SurfaceBsdf {
 #define MAPPED 1u
 #define MAPPED_TURNED 2u  // the mapped normal is turned about the mesh's, as it would face away otherwise
 
-/// Derivatives of the position by u and v; the edges of the triangle where (u, v) is the same everywhere.
+/// Derivatives of the position by u and v; the edges of the triangle where its (u, v) lie on one line.
 static inline void position_derivatives(const SceneView* scene, const SurfaceHit* hit, float3* du,
                                         float3* dv) {
     const Triangle triangle = scene->triangles[hit->triangle];

@@ -99,7 +99,7 @@ static inline float choice_probability(const SceneView* scene, uint index, const
 
 /// The entry of a triangle in the table, by itself or as a part of a sphere or cylinder, or ~0u for a
 /// triangle that does not emit. Area lights lie in the table by ascending triangles, between the delta lights
-/// and the environment.
+/// and the lights of the sky.
 static inline uint emitter_of_triangle(const SceneView* scene, uint triangle) {
     const uint first = scene->info->delta_emitter_count;
     uint low = first;
