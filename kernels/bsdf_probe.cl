@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluates and samples the BSDFs of points, for checks. One work-item a query.
+// Evaluates and samples the BSDFs of points, for checks. One work-item for each query; any
+// work-group size.
 
 #include "lib/bsdf/bsdf.cl"
 #include "shared/bsdf_query.h"

@@ -83,7 +83,7 @@ static inline uint rounds_of(float variance) {
     return (uint)fmin(rint(0.5f * log2(variance / NEARLIGHT_ENOUGH_VARIANCE)), (float)NEARLIGHT_MAX_ROUNDS);
 }
 
-/// Writes for each pixel how many rounds it gets, after `sample_count` samples, at least two, of all of them.
+/// Writes for each pixel how many rounds it gets, after `sample_count` samples of each, at least two.
 kernel void camera_lights_rounds(const global CameraLight* restrict lights, const global float* restrict sums,
                                  uint width, uint row_count, uint sample_count,
                                  global uint* restrict rounds) {

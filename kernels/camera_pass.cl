@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera pass: follows camera paths by the part S of surfaces (coats, metals, glass) to receivers, which are
-// the Lambertian parts D of surfaces, and adds up the light of emitters that it meets or finds in S on the
+// the Lambertian parts D of surfaces, and adds up the light of emitters that paths meet or find in S on the
 // way.
 //
 // Packets of receivers are in the order of shared/packet_order.h, where rows of tiles count from the first of
@@ -21,11 +21,11 @@
 #include "shared/camera_pass.h"
 #include "shared/shared_light.h"
 
-#define MAX_CHAIN 255  // surfaces, which ReceiverPacket.surface can count; chance ends paths long before
-#define MAX_TRACED_LIGHT_SAMPLES 4  // of a receiver whose light is traced at once
-#define FEW_EDGES 2u                // that are left to such a receiver behind mirrors or glass
+#define MAX_CHAIN 255  // surfaces that ReceiverPacket.surface can count; chance ends paths long before
+#define MAX_TRACED_LIGHT_SAMPLES 4  // light samples of a receiver whose light is traced at once
+#define FEW_EDGES 2u  // edges left to a receiver behind mirrors or glass whose light is traced at once
 
-/// The surface as what it reflects by S of its bundle's sky is computed (shared_sky.cl).
+/// The surface as shared_sky.cl reads it, to compute what its S reflects of the sky that its bundle finds.
 static inline SeenSurface seen_surface(const SurfaceHit* hit, float3 direction, float model,
                                        uint light_samples) {
     SeenSurface seen;

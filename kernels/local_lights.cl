@@ -54,9 +54,9 @@ static inline OrientedPoint point_of_light(const global Vpl* light) {
     return point;
 }
 
-/// G_0 of a receiver and a light that is nearer than the radius, else 0. Both stand off their triangles. In
-/// one plane these distances differ by less than this part of the ray epsilon, unless a triangle is very much
-/// larger than the radius, so that points of one plane have no more height.
+/// G_0 of a receiver and a light that is nearer than the radius, else 0. Points of one plane must not count.
+/// Both stand off their triangles, by distances that differ by less than 0.3 of the ray epsilon there, unless
+/// a triangle is very much larger than the radius.
 static inline float local_geometry(const SceneView* scene, const OrientedPoint* receiver,
                                    const OrientedPoint* light, float radius) {
     const float3 to_receiver = receiver->position - light->position;

@@ -136,9 +136,9 @@ kernel void splats_add_camera_light(const global CameraVertex* restrict vertices
     }
 }
 
-/// Puts the mean of both in the place of the camera light of the listed pixels `first` to `first` + `count`.
-/// `added` has what further camera paths brought to them, which are 1/scale times as many as those before
-/// any round of camera_lights.cl.
+/// Averages the camera light of the listed pixels `first` to `first` + `count` with `added`, what further
+/// camera paths brought to them. These are 1/scale times as many as those before any round of
+/// camera_lights.cl.
 kernel void splats_refine(const global uint* restrict pixels, uint first, uint count, uint reach,
                           const global CameraSplat* restrict added, float scale,
                           global CameraSplat* restrict splats) {

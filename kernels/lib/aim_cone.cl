@@ -3,7 +3,7 @@
 // around them.
 //
 // A walk that starts or lands far from such a sphere seldom finds it by chance, and one that does stands for
-// much light: the farther it comes from, the more. Such a VPL would outshine all others.
+// much light: the farther it comes from, the more. The VPL that it leaves would outshine all others.
 #ifndef NEARLIGHT_LIB_AIM_CONE
 #define NEARLIGHT_LIB_AIM_CONE
 

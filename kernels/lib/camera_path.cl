@@ -7,8 +7,8 @@
 #include "lib/camera_sample.cl"
 #include "lib/path_ray.cl"
 
-#define SURE_SURFACES 16   // after which chance ends paths
-#define SURE_WEIGHT 0.02f  // of a path, below which chance ends it sooner
+#define SURE_SURFACES 16   // surfaces before chance ends paths
+#define SURE_WEIGHT 0.02f  // weight below which chance then ends a path sooner
 
 /// A path from the camera, at one of its surfaces.
 typedef struct CameraPath {
@@ -97,7 +97,8 @@ static inline bool looks_for_lights(const SceneView* scene, const CameraPath* pa
            !is_delta_only(&surface->bsdf);
 }
 
-/// What a surface asks lights whose S reflects `specular`. `is_receiver`: its D is a receiver.
+/// How a surface asks lights, up to `max`. Its S reflects `specular`, and its D is a receiver if
+/// `is_receiver` is set.
 static inline LightQuota surface_quota(const SceneView* scene, const CameraPath* path,
                                        const SurfaceBsdf* surface, float3 specular, bool is_receiver,
                                        LightQuota max) {
@@ -141,7 +142,8 @@ static inline uint follow_specular(const SceneView* scene, CameraPath* path, con
     return WAY_ON;
 }
 
-/// Follows the path over one surface. Returns a WAY_…, and at a receiver its albedo.
+/// Follows the path over one surface. Returns a WAY_…; `albedo` gets what D reflects, and `quota` is turned
+/// from what the surface may ask of lights into what it asks.
 static inline uint follow_surface(const SceneView* scene, CameraPath* path, const SurfaceHit* hit,
                                   const SurfaceBsdf* surface, uint branch, LightQuota* quota,
                                   const SurfaceNumbers* numbers, float3* albedo) {

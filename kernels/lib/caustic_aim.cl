@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of receivers that aim at mirrors and glass from where walks of light came.
+// Rays of receivers that aim at the mirrors and the glass from which walks of light came.
 //
 // No light sample finds a lamp in a mirror or behind a smooth glass body, hardly one a lamp behind slightly
 // rough glass, and cosine-distributed rays find them by chance: each find is a bright dot. Walks from lights
@@ -120,7 +120,7 @@ static inline bool is_mirror_or_glass(const SurfaceBsdf* surface, bool is_delta)
 
 /// The number by which bsdf_sample() takes the rarer way on from a smooth glass body by at least
 /// RARE_WAY_CHANCE, where `u` is uniform in [0, 1). `weight` gets what this changes the sample's weight by. A
-/// reflection in glass brings as much light as one in a mirror, but is drawn twenty times less often.
+/// reflection in glass, once drawn, counts as much as one in a mirror, but is drawn twenty times less often.
 static inline float choose_way_evenly(const SurfaceBsdf* surface, float u, float* weight) {
     const Bsdf* bsdf = &surface->bsdf;
     *weight = 1.0f;

@@ -11,17 +11,17 @@
 /// A margin relative to the size of coordinates. It is more than rounding can move a point by.
 #define ROUNDING_MARGIN 4e-6f
 
-/// How far rounding can move points of a triangle with these corners against the planes of the close range,
-/// m.
+/// How far (m) rounding can move points of a triangle with these corners against the planes of the close
+/// range.
 static inline float close_margin(const global CloseRange* close_range, float3 a, float3 b, float3 c) {
     const float3 origin = load3(close_range->origin);
     const float3 reach = fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(origin)));
     return ROUNDING_MARGIN * max_component(reach);
 }
 
-/// The part of a triangle between the planes of the close range, the sphere of the range among them as the
-/// plane that faces the camera at that distance. It holds all points of the triangle that in_close_range()
-/// accepts. A vertex (u, v, 0) of the polygon is the point a + u · (b − a) + v · (c − a).
+/// The part of a triangle between the planes of the close range, with a plane across the view at the range in
+/// the place of the sphere. It holds all points of the triangle that in_close_range() accepts. A vertex (u,
+/// v, 0) of the polygon is the point a + u · (b − a) + v · (c − a).
 static inline Polygon close_part(const global CloseRange* close_range, float3 a, float3 b, float3 c) {
     const float3 origin = load3(close_range->origin);
     const float margin = close_margin(close_range, a, b, c);

@@ -58,8 +58,8 @@ typedef struct Continuation {
 
 /// Decides what a ray brings. VPLs bring a part of the light of the first surface's Lambertian part, and the
 /// ray brings the rest: all of it where a map turns that surface's normal for this viewer. They bring too
-/// much on paths that are too long for a receiver behind mirrors or glass. There the ray takes light away, by
-/// chance `u`, or else brings what is left of the others.
+/// much on paths that are too long for a receiver behind mirrors or glass. There the ray takes that away, by
+/// chance `u`, or else brings what VPLs leave out of paths that are not too long.
 static inline Continuation choose_continuation(const SceneView* scene, const SurfaceBsdf* first,
                                                const WantedLight* wanted, float u) {
     const bool has_specular = scene->info->has_specular;
@@ -151,8 +151,8 @@ typedef struct BundlePath {
     float3 own;       // factor from light that arrives there to the light of the receiver alone
 } BundlePath;
 
-/// Whether the bundle gets the light that a first surface reflects to a receiver at x by S. If so, nothing
-/// else is left on this way.
+/// Whether the bundle gets the light that a first surface at y reflects to a receiver at x by S. Then S is
+/// all that counts of the surface.
 static inline bool reflects_to_bundle(const FoundReflection* found, const SurfaceBsdf* surface, float3 x,
                                       float3 y, const Continuation* way) {
     const bool is_alone = (way->parts & BSDF_S) && way->long_scale == 0.0f &&
@@ -240,8 +240,8 @@ static inline void add_by_chance(ContinuedPath* path, float3 light) {
     path->way.excess += (1.0f - part) * light;
 }
 
-/// The part of the light of a lamp that the path brings which came over mirrors and glass alone. Rays that
-/// aim at these bring the rest.
+/// The part that counts of a lamp's light which the path brings: rays that aim bring the rest of what came
+/// over mirrors and glass alone.
 static inline float part_beside_aimed(const ContinuedPath* path, const WantedLight* wanted) {
     return wanted->aim != 0 && path->is_specular
                ? unaimed_part(wanted->aim, path->first_cosine, path->first_direction)

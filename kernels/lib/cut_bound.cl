@@ -17,7 +17,7 @@ typedef struct BundleClusters {
     float16 share;       // the cluster's receivers ÷ those of the bundle; 0: it has none
 } BundleClusters;
 
-/// A node or a single VPL.
+/// What the VPLs of a node send out, or a single VPL. The members are those of CutNode.
 typedef struct Emission {
     float3 center;
     float radius;

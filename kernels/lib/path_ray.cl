@@ -62,7 +62,7 @@ typedef struct LightQuota {
     uint samples;
     uint rays;         // the first goes on as the path, and the others only look for lights
     uint max_veils;    // that light may pass
-    uint bundle_rays;  // of the bundle, which look for the sky
+    uint bundle_rays;  // rays of the bundle that look for the sky
     uint first;        // number of the first light sample in its sequence
 } LightQuota;
 
@@ -110,10 +110,10 @@ typedef struct PathRay {
     float3 throughput;
     LightReceiver from;  // where it was scattered
     float pdf;  // density of the direction, per steradian, times rays for each light sample; 0: a delta
-    // Of the light straight from where it was scattered, the ray brings this part, and rays beside it the
-    // rest.
+    // Rays from one place share the light that lights send straight there (LightQuota.rays): this ray brings
+    // this part.
     float part_of_straight;
-    float passed;        // distance from there to the last veil
+    float passed;        // distance from where it was scattered to the last veil
     float index;         // refractive index of what it is in ÷ that of where its path began
     float bundle_ratio;  // rays of a bundle that look for the sky as this one does, for each light sample
     uint veils;          // veils that the ray has passed since it was scattered
@@ -195,9 +195,9 @@ static inline float carried_part(const PathRay* ray, float3 albedo) {
     return max_component(ray->throughput * albedo) * ray->index * ray->index;
 }
 
-/// The part of paths that a surface sends on at most where chance ends them. Glass and mirrors send light on
-/// almost undiminished: a diamond shows what has met a hundred surfaces, and the fewer paths get there, the
-/// more each of them counts.
+/// At most this part of the paths goes on from a surface where chance ends them. Glass and mirrors send light
+/// on almost undiminished: a diamond shows what has met a hundred surfaces, and the fewer paths get there,
+/// the more each of them counts.
 #define MAX_SURVIVAL 0.99f
 
 /// Turns the ray at a surface into the direction that its BSDF draws. Returns false where the path ends.
@@ -218,7 +218,7 @@ OUTLINED bool scatter_ray(const SceneView* scene, PathRay* ray, const SurfaceHit
     return !is_black(ray->throughput);
 }
 
-/// Tells a ray that was scattered how its surface asks lights. Light in a mirror image is its own.
+/// Tells a ray that was scattered how its surface asks lights. It brings the light in a mirror image alone.
 static inline void share_lights(PathRay* ray, const LightQuota* quota) {
     if (ray->pdf > 0.0f) {
         ray->pdf *= (float)quota->rays / (float)quota->samples;

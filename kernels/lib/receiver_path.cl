@@ -144,8 +144,8 @@ OUTLINED float3 find_behind_veils(const SceneView* scene, const ReceiverPoint* a
     return veiling.part * way.excess / VEILED_PART;
 }
 
-/// The light of lamps that a ray brings which aims at mirrors and glass and goes on from there over nothing
-/// else. The result counts as that of a cosine-distributed ray.
+/// The light of lamps that a ray brings if it aims at mirrors and glass and goes on over these alone. The
+/// result counts as that of a cosine-distributed ray.
 OUTLINED float3 aimed_light(const SceneView* scene, const ReceiverPoint* at, const PathLimits* limits,
                             float2 u, uint4 keys) {
     float3 light = (float3)(0.0f);

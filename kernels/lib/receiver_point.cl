@@ -71,8 +71,8 @@ static inline float3 sampled_irradiance(const SceneView* scene, const ReceiverPo
 }
 
 /// The part of the direct light that light samples bring, beside the receiver's rays; without rays, light
-/// samples bring all of it. Delta lights up to NEARLIGHT_MAX_EXACT_LIGHTS are exact. `key` is that of the
-/// sequence of light samples.
+/// samples bring all of it. Delta lights are summed exactly if there are at most NEARLIGHT_MAX_EXACT_LIGHTS.
+/// `key` is that of the sequence of light samples.
 static inline float3 sampled_direct_light(const SceneView* scene, const ReceiverPoint* at,
                                           const LightQuota* quota, uint key) {
     float3 exact = (float3)(0.0f);

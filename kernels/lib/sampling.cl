@@ -47,8 +47,8 @@ static inline float3 square_to_cosine_hemisphere(float2 u) {
     return (float3)(sqrt(u.x) * circle_point(u.y), sqrt(fmax(0.0f, 1.0f - u.x)));
 }
 
-/// 1 − cosine of the angle of this sine, which is below 90°, without the loss of digits that small angles
-/// would suffer.
+/// 1 − cosine of the angle below 90° whose squared sine is given, without the loss of digits that small
+/// angles would suffer.
 static inline float cone_height(float squared_sine) {
     return squared_sine / (1.0f + sqrt(fmax(1.0f - squared_sine, 0.0f)));
 }

@@ -13,11 +13,11 @@ namespace nearlight::core {
 typedef struct CameraLimits {
     uint max_edges;      // from the camera to a light; 1 sees lights themselves only
     uint light_samples;  // at each surface that reflects other than by a Lambertian part
-    uint light_rays;     // of those that the camera sees, or sees in mirrors and through glass
+    uint light_rays;     // from such surfaces that the camera sees straight, in mirrors or through glass
     // Light of receivers that weigh less, or that have few edges left behind mirrors or glass, is traced at
     // once; 0: none is.
     float min_weight;
-    uint bundle_rays;  // of a bundle, which look for the sky for the first surfaces too
+    uint bundle_rays;  // rays of a bundle that look for the sky for the first surfaces, too; 0: none do
 } CameraLimits;
 
 /// The pixels that a launch looks at instead of those at its places. Its places, row by row, take one pixel

@@ -16,13 +16,13 @@ typedef struct CausticLanding {
     uint is_there;  // 0: the walk did not land so, and the rest says nothing
 } CausticLanding;
 
-/// A cube of space, and how many targets receivers in it have. Cells of each level have half the side of
-/// those one level below.
+/// A cube of space, and the targets that receivers in it have. Cells of level l have half the side of those
+/// of level l − 1.
 typedef struct CausticCell {
     int x, y, z;  // floor of the coordinates ÷ the side
     uint level;
-    uint first;  // of its targets
-    uint count;  // 0: the entry of the table is free
+    uint first;  // place of its first target in the list of targets
+    uint count;  // number of its targets; 0: the entry of the table is free
 } CausticCell;
 #define NEARLIGHT_MAX_CAUSTIC_TARGETS 16u  // of a cell
 #define NEARLIGHT_CAUSTIC_LEVELS 10u
@@ -41,8 +41,8 @@ NEARLIGHT_SHARED_FUNCTION uint caustic_hash(int x, int y, int z, uint level) {
     return (uint)x * 73856093u ^ (uint)y * 19349663u ^ (uint)z * 83492791u ^ level * 2654435761u;
 }
 
-/// The coordinate of a cell along one axis. It is bounded for the sake of scenes that lie far from the
-/// origin.
+/// The coordinate along one axis of the cell that a place moved by `shift` sides lies in. It is bounded for
+/// the sake of scenes that lie far from the origin.
 NEARLIGHT_SHARED_FUNCTION int caustic_coordinate(float position, float side, float shift) {
     const float scaled = position / side + shift;
     const float limited = scaled > 1e9f ? 1e9f : scaled < -1e9f ? -1e9f : scaled;

@@ -32,12 +32,11 @@ namespace nearlight::core {
 typedef struct Emitter {
     Vec3 position;  // point, spot and projector; sphere: its centre; cylinder: the middle of one end
     uint type;
-    Vec3 direction;  // unit vector; spot, projector, cylinder: along the axis; directional: the way that
-                     // light goes
-    uint triangle;  // area light: index into the triangle array of its first triangle
-    Vec3 radiance;  // point, spot and projector: intensity, W/sr; directional: irradiance across the
-                    // direction, W/m²; area lights, sun: radiance; environment: mean radiance
-    float area;     // area lights: m²; projector: of its image at the distance 1; sun: steradians
+    Vec3 direction;  // unit; spot, projector and cylinder: the axis; directional: the way that light goes
+    uint triangle;   // area light: index into the triangle array of its first triangle
+    Vec3 radiance;   // point, spot and projector: intensity, W/sr; directional: irradiance across the
+                     // direction, W/m²; area lights, sun: radiance; environment: mean radiance
+    float area;      // area lights: m²; projector: of its image at the distance 1; sun: steradians
     float probability;
     float cdf;           // sum of the probabilities up to and including this one
     float beam_angle;    // spot: full intensity within this angle of the axis, radians

@@ -9,8 +9,8 @@
 namespace nearlight::core {
 #endif
 
-/// Sums over samples of one pixel, each weighted by the reconstruction filter of another pixel: radiance and
-/// the weights themselves. The halves are those of the samples by their numbers.
+/// Sums over samples of one pixel, each weighted by the reconstruction filter of a pixel that they reach:
+/// radiance and the weights themselves. The halves are those of the samples by their numbers.
 typedef struct Splat {
     Vec3 direct;
     float weight;

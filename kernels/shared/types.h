@@ -168,8 +168,7 @@ typedef struct Importon {
     Vec3 response;
     float pad1;
 } Importon;
-// Importon.flags: a gather sums the squares of its geometry terms, and `response` is squared and divided by
-// π.
+// Importon.flags: a gather sums squares of its geometry terms, and `response` is its own square ÷ π.
 #define NEARLIGHT_IMPORTON_SQUARED 2u
 
 /// A point placed on a triangle, on the surface itself.

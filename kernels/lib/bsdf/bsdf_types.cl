@@ -2,7 +2,8 @@
 // A BSDF at one point of a surface, and a direction drawn from it.
 //
 // A BSDF is D + S: D is its Lambertian part, S everything else (coat, metal, glass). VPLs stand for D alone
-// (docs/method.md). Files of this folder hold S of one model each, as up to three functions:
+// (docs/method.md). Files of this folder hold S of one model each, as up to three functions, without the
+// parameters that a model does not need:
 //
 //     float3     MODEL_eval(bsdf, wo, wi, &pdf)
 //         S(wo, wi) · |cosθi| without mirror images and refractions at a smooth surface;

@@ -26,7 +26,7 @@ static inline BsdfSample conductor_sample(const Bsdf* bsdf, float3 wo, float2 v)
     return sample;
 }
 
-/// Exact for smooth metal.
+/// The estimate is exact for smooth metal.
 static inline float3 conductor_albedo(const Bsdf* bsdf, float3 wo) {
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);
     return bsdf->specular * facet_escape(bsdf) * fresnel_conductor(cosine, bsdf->eta, bsdf->k);

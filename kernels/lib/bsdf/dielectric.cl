@@ -100,7 +100,7 @@ static inline BsdfSample dielectric_sample(const Bsdf* bsdf, float3 wo, float u,
 /// whole would do one alone; neither may count for nothing.
 #define LEAST_FACET_SHARE 0.05f
 
-/// Exact for a smooth boundary.
+/// The estimate is exact for a smooth boundary.
 static inline float3 dielectric_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);

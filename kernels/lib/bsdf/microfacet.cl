@@ -108,8 +108,8 @@ OUTLINED float3 sample_visible_facet(const Microfacets* facets, float3 wo, float
         const float2 slope = (float2)(toward.x * s.x - toward.y * s.y, toward.y * s.x + toward.x * s.y);
         return normalize((float3)(-slope * facets->alpha, 1.0f));
     }
-    // Half vectors with a uniform cap of the sphere. [Dupuy & Benyoub, Sampling Visible GGX Normals with
-    // Spherical Caps, 2023]
+    // This is the half vector to a direction that is uniform over a cap of the sphere. [Dupuy & Benyoub,
+    // Sampling Visible GGX Normals with Spherical Caps, 2023]
     const float z = (1.0f - u.x) * (1.0f + stretched.z) - stretched.z;
     const float3 h = stretched + (float3)(sqrt(fmax(0.0f, 1.0f - z * z)) * circle_point(u.y), z);
     return normalize((float3)(h.xy * facets->alpha, fmax(h.z, 1e-7f)));
@@ -132,7 +132,7 @@ static inline float facing_cosine(const Bsdf* bsdf, float3 wo) {
     return mix(wo.z, 0.65f, 0.4f * fmin(bsdf->alpha.x + bsdf->alpha.y, 2.0f));
 }
 
-/// About the share of light that leaves rough facets after one reflection, for all directions of it together.
+/// About the share of light that leaves rough facets after one reflection, whatever its direction.
 static inline float facet_escape(const Bsdf* bsdf) {
     const float alpha = fmin(0.5f * (bsdf->alpha.x + bsdf->alpha.y), 1.0f);
     return 1.0f - (bsdf->flags & NEARLIGHT_MATERIAL_BECKMANN ? 0.4f : 0.6f) * alpha * sqrt(alpha);

@@ -36,8 +36,8 @@ static inline BsdfSample phong_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     return sample;
 }
 
-/// A narrow lobe reflects the cosine of its direction; a wide one, half of it below the surface at grazing
-/// angles, reflects more.
+/// A narrow lobe reflects as much as the cosine of its middle says. A wide one reflects more at grazing
+/// angles, though half of it lies below the surface.
 static inline float3 phong_albedo(const Bsdf* bsdf, float3 wo) {
     return bsdf->specular * fmax(wo.z, 0.5f * bsdf->alpha.x);
 }

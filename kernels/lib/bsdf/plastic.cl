@@ -30,7 +30,7 @@ static inline BsdfSample plastic_sample(const Bsdf* bsdf, float3 wo, float2 v) {
     return sample;
 }
 
-/// Exact for a smooth coat.
+/// The estimate is exact for a smooth coat.
 static inline float3 plastic_albedo(const Bsdf* bsdf, float3 wo) {
     float cos_far;
     const float cosine = is_smooth(bsdf) ? wo.z : facing_cosine(bsdf, wo);

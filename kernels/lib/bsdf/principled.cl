@@ -279,7 +279,7 @@ static inline BsdfSample principled_sample(const Bsdf* bsdf, float3 wo, float u,
     return sample;
 }
 
-/// An estimate, good for steering.
+/// The estimate is rough but good enough to steer sampling.
 static inline float3 principled_albedo(const Bsdf* bsdf, float3 wo) {
     const bool thin = is_thin(bsdf);
     const float cosine = mix(wo.z, 0.65f, 0.8f * bsdf->alpha.x * bsdf->alpha.x);

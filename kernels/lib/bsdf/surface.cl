@@ -98,8 +98,8 @@ static inline bool decide(float* u, float probability) {
 
 /// Tilts the frame to the normal n, which is given in the frame itself and need not have unit length; one
 /// without a direction leaves the frame as it is. As in Mitsuba, a normal that the viewer sees from behind is
-/// turned about the frame's. Which viewers a path of flux will find is not known yet, so some of
-/// these turn the normal, by `u`, and count only for viewers for whom it is turned. Maps on one another
+/// turned about the frame's. Which viewers a path of flux will find is not known yet, so some such
+/// paths turn the normal, by `u`, and count only for viewers for whom it is turned. Maps on one another
 /// decide together.
 static inline void tilt_frame(SurfaceBsdf* s, float3 n, float3 along, float* u) {
     const float squared = dot(n, n);
@@ -325,7 +325,7 @@ static inline void look_up_bsdf(const SceneView* scene, const SurfaceHit* hit, S
                 scene->info->veils == NEARLIGHT_VEILS_CLEAR && s->mode != BSDF_CAMERA);
 }
 
-/// Everything but the BSDF itself, which is black: the frame of the mesh.
+/// The surface before its material is known: the frame is that of the mesh, and the BSDF is black.
 static inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, uint mode) {
     SurfaceBsdf s;
     s.bsdf = black_bsdf();
@@ -343,7 +343,7 @@ static inline SurfaceBsdf bare_surface(const SurfaceHit* hit, float3 direction, 
     return s;
 }
 
-/// Whether the colour `reflectance` of the model counts where D is not asked for.
+/// Whether the model needs its colour `reflectance`, which in most models only D does.
 static inline bool needs_reflectance(const SurfaceBsdf* s, uint model, bool without_diffuse) {
     return !without_diffuse || s->mapped == MAPPED_TURNED || model == NEARLIGHT_BSDF_PRINCIPLED;
 }

@@ -105,7 +105,7 @@ static inline MapRegion block_of_map(const SceneView* scene, uint2 block) {
     return region;
 }
 
-/// Per steradian. The cosine of the polar angle and the azimuth are uniform inside a region.
+/// The density in a region, per steradian: the cosine of the polar angle and the azimuth are uniform there.
 static inline float region_pdf(const SceneView* scene, const MapRegion* region) {
     const float zone = scene->row_cosines[region->first.y] - scene->row_cosines[region->end.y];
     const float turn =

@@ -7,7 +7,7 @@
 #include "lib/sampling.cl"
 #include "lib/texture.cl"
 
-/// Triangles that are seen under a smaller solid angle are sampled uniformly over their area, steradians.
+/// Triangles that are seen under a smaller solid angle (sr) are sampled uniformly over their area.
 #define MIN_SOLID_ANGLE 1e-5f
 
 /// Corner and edges of a triangle.
