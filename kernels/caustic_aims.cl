@@ -12,7 +12,7 @@
 #include "lib/outlined.cl"
 #include "lib/random.cl"
 
-#define MAX_CAUSTIC_BOUNCES 16
+#define MAX_CAUSTIC_BOUNCES 16  // surfaces after which a walk is given up
 
 OUTLINED_ON_CPU CausticLanding follow_caustic(const SceneView* scene, uint walk, uint seed) {
     CausticLanding landing;

@@ -63,6 +63,7 @@ static inline void add_surface(global float* pixel, const CameraVertex* vertex,
     pixel[NEARLIGHT_SUM_ALPHA] += vertex->depth > 0.0f ? 1.0f : 0.0f;
 }
 
+/// Adds the samples of a batch, from number `first_sample` on, of `samples_per_pixel` in all batches.
 kernel void film_add(const global ReceiverPacket* restrict receivers,
                      const global CameraVertex* restrict vertices,
                      const global IrradiancePacket* restrict direct,

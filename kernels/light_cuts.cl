@@ -173,7 +173,8 @@ static inline uint open_nodes(const CutSource* source, const global CutEntry* fr
 }
 
 /// The bound that is worth one draw: VPLs above it are asked for certain, and all other entries share the
-/// rest of the `asked` draws.
+/// rest of the `asked` draws. Each round finds more VPLs that are certain. Any limit is unbiased, so a few
+/// rounds are enough.
 static inline float bound_of_draw(const global CutEntry* cut, uint count, float asked) {
     float limit = INFINITY;
     for (uint round = 0; round < 16; ++round) {

@@ -11,7 +11,7 @@
 #include "lib/random.cl"
 
 #define MAX_POINTS 8u
-#define LIGHTS_PER_POINT 2u
+#define LIGHTS_PER_POINT 2u  // lights that a point asks: all of them, or so many that chance picks
 
 static inline bool reached_by(const SceneView* scene, uint index, float3 x, float3 n, float2 u) {
     if (scene->emitters[index].type == NEARLIGHT_EMITTER_ENVIRONMENT) {

@@ -2,8 +2,8 @@
 // Reverse VPLs [Segovia et al., Bidirectional Instant Radiosity, EGSR 2006]. A VPL lights the picture where
 // rays from points that the camera sees land.
 //
-// S points send m cosine-distributed rays each. What lands at y has the density (per area, of all rays
-// together)
+// Each of the points s sends m cosine-distributed rays. What lands at y has the density (per area, of all
+// rays together)
 //
 //     n(y) = Σ_s m · cosθs·cosθy / (π d²) · V(s, y),
 //
@@ -42,7 +42,7 @@ kernel void reverse_vpls(SCENE_PARAMETERS, const global Importon* restrict point
     const float3 albedo = surface.bsdf.diffuse;
     const float3 y = off_surface(&hit, hit.geometric);
     // A shading normal lets a ray leave below the surface of its own point. Such a ray comes from the plane
-    // of y.
+    // of y; local_geometry() in local_lights.cl has the same bound of what counts as one plane.
     const float height = dot(hit.geometric, origin - y);
     if (is_black(albedo) || !(height > 0.3f * epsilon_about(&scene, y, hit.t))) {
         return;

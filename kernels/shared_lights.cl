@@ -24,7 +24,8 @@
 #include "lib/curve.cl"
 #include "lib/shared_light.cl"
 
-/// `purpose` gives each kind of lights random numbers of its own.
+/// Lists about `wanted` lights of each bundle, with 1/probability as their factors. `purpose` gives each kind
+/// of lights random numbers of its own.
 kernel void shared_light_choose(const global ReceiverPacket* restrict receivers, uint packet_count,
                                 const global SharedLight* restrict found, uint wanted, uint seed,
                                 uint purpose, global uint* restrict listed, global float* restrict factors,

@@ -10,7 +10,7 @@
 //
 // Memory: arrays of the scene as in lib/scene.cl; one flag and one area (m²) for each triangle: that of the
 // whole triangle, or of its part in the close range (lib/close_part.cl) where the policy decides point by
-// point. One work-item for each triangle; work-group size: any.
+// point (whole_triangles = 0). One work-item for each triangle; work-group size: any.
 
 #include "lib/close_part.cl"
 #include "lib/math.cl"

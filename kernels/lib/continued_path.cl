@@ -15,7 +15,8 @@
 #define FULL_PATH_WEIGHT 0.25f
 
 /// Ends weak paths by chance, before anything is spent on the light that their surface reflects. `albedo` is
-/// about what the surface reflects of all light. Returns false where this path ends.
+/// about what the surface reflects of all light, and `first_weight` what the ray began with. From the third
+/// surface on, chance may end any path. Returns false where this path ends.
 static inline bool survives(PathRay* ray, float3 albedo, uint surfaces, float first_weight, float u) {
     const float part = carried_part(ray, albedo) / first_weight;
     const float survival = surfaces < 3 ? fmin(1.0f, part / FULL_PATH_WEIGHT) : fmin(MAX_SURVIVAL, part);
@@ -145,7 +146,7 @@ static inline float3 continued_sample(const SceneView* scene, const SurfaceHit* 
 /// A path whose first surface reflects its light by S to the whole bundle: what the path finds from there on
 /// arrives at that surface.
 typedef struct BundlePath {
-    uint is_one;
+    uint is_one;  // 0: the path is none of these
     GlossyPlace place;
     ArrivingRay ray;  // by which the path goes on from the first surface
     float3 own;       // factor from light that arrives there to the light of the receiver alone
@@ -359,7 +360,7 @@ static inline bool brings_more(const SceneView* scene, const WantedLight* wanted
 }
 
 /// Light over at least one surface, from a ray that has met `hit`, the first of them. What `found` keeps for
-/// the bundle is left out.
+/// the bundle is left out. If `first_way` is a found light's, all indirect light is what that light brings.
 OUTLINED_ON_CPU ReceivedLight continued_light(const SceneView* scene, PathRay ray, SurfaceHit hit,
                                               const WantedLight* wanted, uint4 keys, Continuation* first_way,
                                               FoundReflection* found) {

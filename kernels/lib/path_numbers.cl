@@ -8,14 +8,15 @@
 /// The random numbers of a path at one surface.
 typedef struct PathNumbers {
     float model;  // for masks and blends
-    float way;
-    float lobe;  // within S
+    float way;    // how a path goes on from its first surface (choose_continuation())
+    float lobe;   // within S
     float2 direction;
     float end;              // whether the path ends by chance
     float of_bundle, draw;  // whether a path becomes the bundle's, and whether its light is drawn
     uint light_seed;
 } PathNumbers;
 
+/// The numbers at the surface number `surfaces`, from 1 on, of the path with these keys.
 static inline PathNumbers path_numbers(uint4 keys, uint surfaces) {
     const uint4 random = random_uint4((uint4)(keys.y, keys.z, keys.w, surfaces));
     const uint4 more = random_uint4((uint4)(random.x, keys.x, surfaces, 0x5ca77e4u));

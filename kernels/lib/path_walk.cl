@@ -9,9 +9,10 @@
 #include "lib/vpl.cl"
 #include "shared/local_lights.h"
 
-#define GATHER_LEVELS 4u
-#define GATHER_LIGHT_SAMPLES 4u
+#define GATHER_LEVELS 4u         // levels of the radius
+#define GATHER_LIGHT_SAMPLES 4u  // light samples by which a place estimates its direct light
 
+/// The radius (m) by this law at a place y with the normal n, off its surface.
 OUTLINED_ON_CPU float gather_radius(const SceneView* scene, const GatherRadius* law, float3 y, float3 n) {
     float radius = law->max_radius;
     if (law->at_unit_light < INFINITY) {

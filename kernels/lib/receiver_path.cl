@@ -34,7 +34,7 @@ static inline Finds nothing_shared(void) {
 typedef struct PathLimits {
     uint max_edges;      // of a path from the receiver to a light: 1 is direct light
     uint vpl_edges;      // of a path by which VPLs bring light to the receiver
-    float clamp_radius;  // R, m
+    float clamp_radius;  // R, m; infinite: VPLs bring the receiver nothing
     uint light_samples;  // that each receiver takes of lights
     uint rays;           // rays that each receiver sends
     uint bundle_rays;    // rays of the bundle that count as the receiver's own where they find the sky

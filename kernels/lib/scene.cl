@@ -202,6 +202,7 @@ static inline float3 off_surface(const SurfaceHit* hit, float3 side) {
 /// ray_epsilon() of a point in a scene of which only what lies about it counts: a neighbourhood of this
 /// radius. However wide the surroundings of a table are, they change nothing on it.
 static inline float epsilon_about(const SceneView* scene, float3 point, float radius) {
+    // So the twentieth of the extent that ray_epsilon() counts is at most twice |point| + radius.
     const float extent = fmin(scene->info->extent, 40.0f * (max_component(fabs(point)) + radius));
     return ray_epsilon(point, extent);
 }

@@ -25,13 +25,13 @@ typedef struct BsdfQuery {
 
 /// The value along `wi`, and a direction drawn with the random numbers.
 typedef struct BsdfAnswer {
-    Vec3 value;  // BSDF · |cosine|
-    float pdf;   // of `value`'s direction, per steradian
-    Vec3 wi;     // what was drawn, in world space
-    float sample_pdf;
+    Vec3 value;        // BSDF · |cosine|
+    float pdf;         // of `value`'s direction, per steradian
+    Vec3 wi;           // direction that was drawn, in world space
+    float sample_pdf;  // this and weight, eta and is_delta are those of its BsdfSample (bsdf_types.cl)
     Vec3 weight;
     float eta;
-    Vec3 albedo;
+    Vec3 albedo;  // bsdf_albedo() of kernels/lib/bsdf/bsdf.cl
     uint is_delta;
 } BsdfAnswer;
 

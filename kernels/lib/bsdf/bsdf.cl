@@ -149,6 +149,7 @@ OUTLINED SurfaceBsdf surface_bsdf_of(const SceneView* scene, const SurfaceHit* h
     const float specular = luminance(s_albedo(&s.bsdf, wo));
     s.s_probability = specular > 0.0f ? 1.0f : 0.0f;
     if (diffuse > 0.0f && specular > 0.0f) {
+        // Albedos are estimates, and a part that is seldom drawn would be bright when it is.
         s.s_probability = clamp(specular / (diffuse + specular), 0.05f, 0.95f);
     }
     return s;

@@ -17,7 +17,7 @@ typedef struct Microfacets {
 
 static inline Microfacets microfacets_of(const Bsdf* bsdf) {
     Microfacets facets;
-    facets.alpha = fmax(bsdf->alpha, 1e-4f);
+    facets.alpha = fmax(bsdf->alpha, 1e-4f);  // Mitsuba's limit; the other α may be rough
     facets.beckmann = bsdf->flags & NEARLIGHT_MATERIAL_BECKMANN;
     return facets;
 }

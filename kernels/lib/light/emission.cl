@@ -251,6 +251,7 @@ static inline EmittedParticle emit_from_direction(const SceneView* scene, const 
     return particle;
 }
 
+/// A particle of the light that `choice` picks. All numbers are independent and uniform in [0, 1).
 OUTLINED EmittedParticle emit_particle(const SceneView* scene, const WalkAim* aim, float choice,
                                        float2 u_position, float2 u_direction) {
     const global Emitter* emitter = scene->emitters + choose_emitter(scene, choice);
