@@ -58,7 +58,7 @@ static inline AimTarget aim_target(const WalkAim* aim, uint number) {
 }
 
 /// The cover of a ring around a target, for u in [0, 1): between `min_cover`, that of the target itself, and
-/// `max_cover`, each doubling is equally likely. Cover is the squared radius on a disk, and 1 − cosine of the
+/// `max_cover`, each doubling is equally likely. Cover is the squared radius on a disc, and 1 − cosine of the
 /// half angle in a cone.
 static inline float cover_around(float min_cover, float max_cover, float u) {
     return min_cover * pow(max_cover / min_cover, u);

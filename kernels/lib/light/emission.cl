@@ -102,7 +102,7 @@ typedef struct EntryPoint {
     float area;  // 1 over the density across the light, m²
 } EntryPoint;
 
-/// A place on the disk of the given radius that lies across light which travels along −`from`, from its
+/// A place on the disc of the given radius that lies across light which travels along −`from`, from its
 /// middle.
 static inline float3 place_on_disk(float radius, float3 from, float2 u) {
     return to_world_frame((float3)(radius * sqrt(u.x) * circle_point(u.y), 0.0f), from);
@@ -155,7 +155,7 @@ static inline uint targets_for_light(const SceneView* scene, const WalkAim* aim,
     return useful;
 }
 
-/// An entry point of light that travels along −`from`: about one of the targets, or on the disk of the
+/// An entry point of light that travels along −`from`: about one of the targets, or on the disc of the
 /// scene's size that faces the light.
 static inline EntryPoint entry_point(const SceneView* scene, const WalkAim* aim, float3 from, float2 u) {
     const float radius = scene->environment->scene_radius;

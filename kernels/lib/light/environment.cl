@@ -52,6 +52,7 @@ static inline float3 interpolated_radiance(const SceneView* scene, float2 place)
                y - (float)row);
 }
 
+/// Whether there is an environment's map. (SceneInfo.has_maps is about normal and bump maps.)
 static inline bool has_map(const SceneView* scene) {
     return scene->environment->width > 0;
 }
