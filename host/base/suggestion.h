@@ -12,9 +12,10 @@ namespace nearlight::core {
 /// the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `words` nearest to `word`. Of several, it is one that begins with `word`, or else the first.
-/// If none is but one mistake away, it is the first that begins with `word`, if there is one. An empty string
-/// says that none is near enough.
+/// The word of `words` nearest to `word`, by edit_distance(), with at most a third of its letters wrong. Of
+/// several, it is one that begins with `word`, or else the first. If even the nearest has more than one
+/// mistake, the first that begins with `word` takes its place, if there is one and `word` has three letters
+/// or more. An empty string says that none is near enough.
 std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
 }  // namespace nearlight::core

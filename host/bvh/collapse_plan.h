@@ -27,7 +27,7 @@ struct WideChildren {
 /// [Ylitie et al., Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017].
 class CollapsePlan {
   public:
-    /// Makes the plan in parallel, with 60 bytes a binary node. `bvh` must outlive the plan.
+    /// Makes the plan in parallel, with 52 bytes a binary node. `bvh` must outlive the plan.
     explicit CollapsePlan(const Bvh& bvh);
 
     /// Whether the reference becomes a leaf of the wide tree, with all triangles below it.

@@ -31,11 +31,12 @@ namespace {
 constexpr double kCandidatesPerVpl = 4;
 constexpr uint kMinCandidates = 256;
 constexpr std::size_t kMaxCameraPoints = 512;
-/// The sparse sets that light candidates, for the weights, and that light the chosen reverse VPLs.
+/// The sparse set and the samples for the rough light of candidates, which their weights follow.
 constexpr uint kReverseSparseVpls = 512;
 constexpr IncidentQuality kRoughQuality{.direct_samples = 4, .paths = 2};
 /// The part of the mean irradiance that is added to every reverse candidate's when VPLs are chosen.
 constexpr float kMinLight = 0.1f;
+/// The samples for the light of chosen reverse VPLs.
 constexpr IncidentQuality kThorough{.direct_samples = 64, .paths = 8};
 
 constexpr uint kReverseSeed = 0x4e7e45eu;

@@ -26,8 +26,8 @@ namespace {
 /// The wide clamp radius as a multiple of the user's, or, if that is 0, as a part of the range.
 constexpr float kGatherToClampRadius = 6.0f;
 constexpr float kGatherRadiusToRange = 0.15f;
-/// The number of VPLs of depth 1 that are expected within the gather radius, unless the wide clamp radius is
-/// smaller.
+/// How many VPLs of depth 1 may be expected within the radius that a VPL is gathered with, before this is
+/// made narrower.
 constexpr float kVplsInGatherRadius = 8.0f;
 constexpr uint kRaysPerReceiver = 2;
 constexpr uint kConnections = 32;

@@ -92,7 +92,7 @@ Division divide(std::span<const HalfLine> lines, std::vector<Vec3> centers) {
     return division;
 }
 
-/// Moves each centre to its group, as far as the group is more than a few.
+/// Moves each centre to the middle of its group, and drops those of groups that are too small.
 std::vector<Vec3> moved_centers(std::span<const HalfLine> lines, const Division& division) {
     std::vector<Vec3> centers;
     for (std::size_t k = 0; k < division.centers.size(); ++k) {

@@ -19,8 +19,8 @@ constexpr double kPlannedExtra = 1.0;
 /// costs the work so far.
 constexpr double kToleratedPart = 0.1;
 /// A pass is judged by this much of it, or by what it does in this much of the time limit: less says little
-/// on a busy machine. What comes before the first part of kIgnoredPart is not looked at, because drivers
-/// compile kernels when they first run.
+/// on a busy machine. The first kIgnoredPart of either is not looked at, because drivers compile kernels when
+/// they first run.
 constexpr double kJudgedPart = 0.15;
 constexpr double kIgnoredPart = 0.03;
 /// The last pass towards an error has more samples than the estimate says by this factor, and at least this

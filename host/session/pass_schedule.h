@@ -19,7 +19,7 @@ inline constexpr uint kMaxPassesToError = 1000;
 /// What the passes so far let one expect.
 struct PassForecast {
     double error = 0;     ///< so far, see relative_error()
-    double passes = 0;    ///< of full length, until the error is reached
+    double passes = 0;    ///< until the error is reached, if those to come have full length
     double seconds = 0;   ///< from the beginning until then
     bool reaches = true;  ///< whether the limits of passes and seconds allow that
 };
@@ -45,8 +45,8 @@ class PassSchedule {
     void resume(std::vector<uint> samples, std::optional<double> error, const PassPace& pace,
                 uint begun_samples, double begun_part);
 
-    /// Begins a pass and returns its samples per pixel, or nothing if there is to be none. After the first
-    /// call that follows is_too_long(), this is the same pass again.
+    /// Begins a pass and returns its samples per pixel, or nothing if there is to be none. If is_too_long()
+    /// said so of the present pass, and that was given up, begins it again with fewer samples.
     std::optional<uint> begin();
     /// Sets how many passes it takes to believe that an error is reached; 1 at first. An error of 0 is always
     /// believed.
@@ -107,10 +107,10 @@ class PassSchedule {
     uint begun_samples_ = 0;  ///< of the pass to go on with; 0: there is none
 
     uint present_samples_ = 0;
-    double present_part_ = 1.0;  ///< what is made of the present pass, where it was begun before
+    double present_part_ = 1.0;  ///< of the present pass, the part that was not made before resume()
     Stopwatch pass_watch_;
-    /// When the present pass was first heard of, and how far it was: what comes before is the driver's
-    /// compiling, too.
+    /// The moment from which the pace of the present pass is judged, in seconds after its beginning, and how
+    /// far the pass was then. What comes before has the driver's compiling in it.
     struct Mark {
         double seconds = 0;
         double fraction = 0;

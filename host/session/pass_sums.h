@@ -37,7 +37,8 @@ class PassSums {
 
     /// Adds row `y` of a pass of `samples` per pixel, with the channels of layer_channels().
     void add_row(std::size_t y, std::span<const float> values, std::uint32_t samples);
-    /// Adds the passes of a picture of the same size. Layers that are not averaged stay those of this one.
+    /// Adds the passes of a picture of the same size. Layers that are not averaged stay those of this one in
+    /// rows that have any pass.
     void add(const PassSums& other);
 
     [[nodiscard]] std::size_t width() const { return width_; }

@@ -17,7 +17,7 @@ namespace nearlight::core {
 struct PlannedPicture {
     PictureTask task;
     PixelWindow window{};                  ///< the part that is wanted
-    std::optional<PictureNumber> shown{};  ///< to remote devices
+    std::optional<PictureNumber> shown{};  ///< its number, if it was shown to remote devices
     /// The bands, from the first one on, that remote devices were told to make before the picture's turn: the
     /// number of a device for each.
     std::vector<std::size_t> begun{};
@@ -45,7 +45,7 @@ class NextPicture {
 };
 
 /// Adds a worker for each remote device, which knows the picture, to `workers`. They begin bands of `next`
-/// when they have none left. Keeps references to all arguments but `workers`.
+/// when they have none left. Keeps references to `remote` and `next`.
 void add_remote_workers(const RemoteDevices& remote, const PlannedPicture& picture, NextPicture& next,
                         std::vector<BandWorker>& workers);
 

@@ -63,12 +63,13 @@ class Session {
             const SessionOptions& options = {}) = delete;
     Session(Device& device, const Scene&& scene, const SessionOptions& options = {}) = delete;
 
-    /// Decides what the settings leave open, by a pilot view of about two thousand receivers.
+    /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
     View look(const ViewSettings& settings, uint seed) { return look(scene_.camera, settings, seed); }
     /// Looks with another camera than the scene's.
     View look(const SceneCamera& camera, const ViewSettings& settings, uint seed);
 
-    /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name.
+    /// Makes VPLs for the view, on the leading device, or reads them from the file that the settings name,
+    /// and then throws as read_vpl_file() and check_vpls() do.
     VplSet sample(const View& view, const SamplingSettings& settings, uint seed);
 
     /// Joins sets of VPLs of this scene and depth into one. The power of each VPL is multiplied by the weight
@@ -81,12 +82,13 @@ class Session {
     void save_vpls(const View& view, const VplSet& vpls, const std::filesystem::path& file);
 
     /// Makes a picture: camera pass, direct light, light of the VPLs, film. `sink` gets the rows in order, in
-    /// the caller's thread.
+    /// the caller's thread. Throws Error(ErrorKind::invalid_argument) for a window that is not in the
+    /// picture, and for Russian roulette over VPLs that are asked by cuts.
     GatherOutcome gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,
                          const RowSink& sink, const WorkProgress& progress,
                          const PictureSequence& order = {});
 
-    /// Plans a picture for PictureSequence::present, and shows it to remote devices.
+    /// Plans a picture for PictureSequence::present, and shows it to remote devices. Throws as gather() does.
     std::shared_ptr<PlannedPicture> plan(const View& view, const VplSet& vpls, const GatherSettings& settings,
                                          uint seed);
 

@@ -9,7 +9,7 @@ namespace nearlight::core {
 namespace {
 
 /// How many receivers of the packet keep what their rays find of the sky. Those whose normal a map tilts do
-/// not (lib/shared_light.cl).
+/// not (kernels/lib/shared_light.cl).
 std::size_t looking_count(const ReceiverPacket& packet) {
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {

@@ -30,12 +30,14 @@ struct VplFile {
 /// The file replaces an old one only when it is complete. Throws Error(ErrorKind::file).
 void write_vpl_file(const std::filesystem::path& file, const VplFile& set);
 
-/// Throws Error(ErrorKind::file) if the file is missing or truncated, lacks a property, or has a VPL whose
-/// position is not finite, whose normal has no direction, or whose power is not finite or is negative.
+/// Throws Error(ErrorKind::file) if the file is missing or truncated, lacks a property, has more than
+/// kMaxVpls VPLs, or has a VPL whose position is not finite, whose normal has no direction, whose power is
+/// not finite or is negative, or whose flags are unknown.
 VplFile read_vpl_file(const std::filesystem::path& file);
 
 /// Throws Error(ErrorKind::file) if the VPLs of a file cannot light a scene up to this maximum depth, because
-/// they were made for another scene or another depth; `file` is for the message.
+/// they were made for another scene or another depth, or name a transmission curve that the scene has not;
+/// `file` is for the message.
 void check_vpls(const VplFile& set, const Scene& scene, uint max_depth, const std::filesystem::path& file);
 
 /// A set of the samplers as a file has it. Throws Error(ErrorKind::invalid_argument) for a set with local

@@ -15,7 +15,7 @@ namespace nearlight::core {
 
 /// How several passes become one picture: as their mean, by taking the first, or as the variance of the mean.
 enum class PassRule { mean, first, variance };
-/// Which EXR files get a layer: all, or those for which it is asked.
+/// Which EXR files get a layer: all for which no list of layers is given, or only those whose list names it.
 enum class FileRule { always, asked };
 /// What numbers EXR files have: 16-bit or 32-bit floats.
 enum class Storage { half, full };

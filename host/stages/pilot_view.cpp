@@ -113,6 +113,7 @@ PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceSce
     const double aspect = static_cast<double>(camera.width) / camera.height;
     const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPixelCount * aspect))), 8, 256);
     const int height = std::clamp(static_cast<int>(std::lround(width / aspect)), 8, 256);
+    // Each pixel has the first of two samples, because a pixel's only sample would lie in its middle.
     SmallView small =
         look_at_few_pixels(device, camera_pass, scene, camera, width, height, {.samples_per_pixel = 2}, seed);
     PilotView view;

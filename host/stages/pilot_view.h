@@ -53,7 +53,7 @@ std::vector<Importon> make_importons(const std::vector<ReceiverPacket>& packets,
 /// Uploads the importons to the view, along with its few squared importons and its groups.
 void set_importons(Device& device, PilotView& view, std::span<const Importon> importons);
 
-/// Makes a pilot view of about two thousand receivers, which are evenly spread over the picture.
+/// Makes a pilot view of about a thousand receivers, which are evenly spread over the picture.
 PilotView look_at_scene(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
                         const SceneCamera& camera, uint seed);
 

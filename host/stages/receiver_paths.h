@@ -80,13 +80,14 @@ class ReceiverPaths {
 
     /// As run(), except for the Lambertian light of places within the clamp radius, and for other kinds of
     /// light if the settings say so. Where a receiver may share what it finds of these with others
-    /// (lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights, SharedSky,
-    /// SharedVeiled and SharedReflections bring it to all of the bundle. The clamp radius must be finite.
+    /// (kernels/lib/shared_light.cl), not `indirect` and `direct` but `found` gets it, and SharedLights,
+    /// SharedSky, SharedVeiled and SharedReflections bring it to all of the bundle. The clamp radius must be
+    /// finite.
     void run_sharing(const ReceiverBatch& batch, Buffer<IrradiancePacket>& direct,
                      Buffer<IrradiancePacket>& indirect, FoundLights& found);
 
-    /// What the batch's receivers gain if they aim, by NEARLIGHT_CAUSTIC_ERROR_RAYS rays of each. The
-    /// settings must have rays of both kinds.
+    /// Estimates the errors of the batch's receivers if they do not aim and if they do, by
+    /// NEARLIGHT_CAUSTIC_ERROR_RAYS rays of each. The settings must have rays of both kinds.
     [[nodiscard]] CausticErrors caustic_errors(const ReceiverBatch& batch);
 
   private:

@@ -28,7 +28,7 @@ class Roulette {
     explicit Roulette(Device& device);
 
     /// Makes the lists of VPLs that the task's bundles draw; each VPL in a list has the weight 1/p, times the
-    /// number of strata. The selection refers to the roulette and to the task's buffers.
+    /// number of strata. The selection refers to the stage and to what the task refers to.
     [[nodiscard]] VplSelection select(const RouletteTask& task);
 
   private:

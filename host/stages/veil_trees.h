@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene's veils (lib/light/shadow.cl) and its other surfaces apart: bundles that share the sky or light of
-// places behind veils first ask which receivers such a light reaches if nothing but veils is in the way, and
-// then what the veils let through.
+// A scene's veils (kernels/lib/light/shadow.cl) and its other surfaces apart: bundles that share the sky or
+// light of places behind veils first ask which receivers such a light reaches if nothing but veils is in the
+// way, and then what the veils let through.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -17,7 +17,7 @@ struct VeilTrees {
     DeviceTree veils;  ///< the veils alone, for single rays
 };
 
-/// Makes them from the scene's tree, for the shapes that are on the device.
+/// Takes the scene's tree apart, in the shapes that are on the device.
 VeilTrees make_veil_trees(Device& device, const Scene& scene, const ShapedBvh& tree,
                           const TreeShapes& shapes);
 

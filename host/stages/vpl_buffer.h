@@ -42,7 +42,7 @@ class VplBuffer {
     /// Keeps a copy of the VPLs on the host, so that download() and copy_to() work after the device has
     /// failed and from several threads.
     void keep_on_host() { on_host_ = download(); }
-    /// This copy; empty before keep_on_host().
+    /// The copy on the host; empty if none is kept there.
     [[nodiscard]] std::span<const Vpl> on_host() const { return on_host_; }
     /// Uploads the same VPLs to `device`.
     [[nodiscard]] VplBuffer copy_to(Device& device) const { return {device, download()}; }
@@ -51,7 +51,7 @@ class VplBuffer {
     Device* device_ = nullptr;
     Buffer<Vpl> buffer_;
     std::size_t count_ = 0;
-    std::vector<Vpl> on_host_;  ///< all VPLs, or none before keep_on_host()
+    std::vector<Vpl> on_host_;  ///< all VPLs, or none if no copy is kept
 };
 
 }  // namespace nearlight::core
