@@ -7,7 +7,7 @@
 
 namespace nearlight::core {
 
-/// count ÷ by, rounded up; neither is negative.
+/// count ÷ by, rounded up, where `count` is not negative and `by` is above 0.
 template <std::integral Count, std::integral By>
 constexpr std::common_type_t<Count, By> divide_rounding_up(Count count, By by) {
     using Number = std::common_type_t<Count, By>;

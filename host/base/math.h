@@ -146,6 +146,7 @@ Mat4 rodrigues(double x, double y, double z, double degrees);
 /// Rotation about an axis of any length, counter-clockwise when the axis points at the viewer.
 Mat4 rotation(double axis_x, double axis_y, double axis_z, double degrees);
 /// The transform from camera to world, with +Z towards the target, +Y up and +X to the left, as in Mitsuba.
+/// It has no inverse if `target` is `origin` or `up` points along the view.
 Mat4 look_at(std::array<double, 3> origin, std::array<double, 3> target, std::array<double, 3> up);
 
 }  // namespace nearlight::core

@@ -11,7 +11,7 @@ namespace nearlight::core {
 /// question marks, and so does what is not UTF-8.
 std::string printable(std::string_view text);
 
-/// The same as one line, which is cut where it is longer than anybody would read.
+/// The printable() text as one line, which is cut after 5000 bytes, because nobody reads more.
 std::string printable_line(std::string_view text);
 
 /// The text if it is UTF-8, and else the characters that its bytes are in Latin-1.

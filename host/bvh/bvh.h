@@ -62,6 +62,7 @@ struct BvhHit {
 /// none. The direction may have any length, and t is in units of it. A ray with a number that is not finite
 /// (other than t_max) hits nothing. Kernels are compared with this plain traversal.
 BvhHit closest_hit(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
+/// Whether there is any such hit.
 bool occluded(const Bvh& bvh, Vec3 origin, Vec3 direction, float t_min, float t_max);
 
 }  // namespace nearlight::core

@@ -13,7 +13,7 @@ namespace nearlight::core {
 struct TestRay {
     Vec3 origin;
     Vec3 direction;
-    Vec3 inverse;
+    Vec3 inverse;  ///< reciprocals of the direction's components, finite
     float t_min;
 };
 

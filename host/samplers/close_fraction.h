@@ -9,7 +9,7 @@ namespace nearlight::core {
 /// Which deposits of light walks the policies `paper` and `partition` keep beside the patches.
 KeepDeposits deposits_to_keep(Policy policy);
 
-/// So many of `vpl_count` VPLs are close ones if they have this share.
+/// How many of `vpl_count` VPLs are close ones if these have the share `close_fraction`, 0 to 1.
 uint close_vpl_count(float close_fraction, uint vpl_count);
 
 /// Chooses the share of the VPLs that patches should have, by a pilot set of light walks. Each side gets VPLs

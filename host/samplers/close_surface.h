@@ -16,7 +16,7 @@ struct CloseSelection {
 
 class CloseSurface {
   public:
-    /// Classifies the triangles and puts them in Morton order.
+    /// Classifies the triangles and puts them in Morton order. Keeps references to `stages` and `task`.
     CloseSurface(SamplerStages& stages, const SamplingTask& task, const CloseSelection& selection);
 
     [[nodiscard]] const CloseRegion& region() const { return region_; }

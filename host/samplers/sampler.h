@@ -38,7 +38,7 @@ struct SamplingTask {
     std::optional<float> close_fraction;
     CloseRange close_range{};
     std::span<const Opening> openings{};  ///< through which walks from outside come in
-    float clamp_radius = 0.0f;
+    float clamp_radius = 0.0f;            ///< R of the bounded geometry term, m
     uint seed = 0;
 };
 
@@ -79,6 +79,8 @@ struct VplSet {
     double seconds_unless_kept = 0.0;
 };
 
+/// Makes VPLs by the task's sampler. The set is empty if no VPL or bounce is wanted, or if the scene has no
+/// emitter.
 VplSet sample_vpls(SamplerStages& stages, const SamplingTask& task);
 
 VplSet sample_close_range(SamplerStages& stages, const SamplingTask& task);

@@ -40,9 +40,11 @@ struct PassTotals {
 
 /// How far the passes are.
 struct PassRecord {
-    std::vector<PassRange> whole;  ///< passes that have reached every row; seed and first are always there
-    uint begun_samples = 0;        ///< of the pass after them; 0 if that has reached no row
-    uint begun_rows = 0;           ///< rows that it has reached, less than all
+    /// Passes that have reached every row. There is always a range, whose seed and first pass are known
+    /// before it has any pass.
+    std::vector<PassRange> whole;
+    uint begun_samples = 0;              ///< of the pass after them; 0 if that has reached no row
+    uint begun_rows = 0;                 ///< rows that it has reached, less than all
     std::optional<PassChoice> choice{};  ///< empty until pass 0 is whole
     float close_fraction = 0.0f;         ///< of the first pass that was made
     PassTotals totals{};                 ///< of the whole passes

@@ -17,9 +17,9 @@ namespace nearlight::core {
 using PictureNumber = std::uint64_t;
 
 struct RemoteDevice {
-    std::size_t number = 0;  ///< by which RemoteDevices calls it
-    std::string name;        ///< for messages
-    std::size_t batch_receivers = 0;
+    std::size_t number = 0;           ///< by which RemoteDevices calls it
+    std::string name;                 ///< for messages
+    std::size_t batch_receivers = 0;  ///< receivers_per_batch() of the device
 };
 
 /// What a session asks of remote devices. Each has the session's scene. The functions may be called from
@@ -30,7 +30,8 @@ struct RemoteDevices {
     std::function<PictureNumber(const PictureTask&, std::span<const Vpl>)> show;
     /// Has a device make a band, which is not waited for. It makes its bands in the order of the calls.
     std::function<void(PictureNumber, std::size_t device, uint band)> order;
-    /// Waits for a band, and orders it before unless it has been. Throws Error if the device has failed.
+    /// Waits for a band, and orders it before unless it has been. Returns nothing if the progress stopped it.
+    /// Throws Error if the device has failed.
     std::function<std::optional<FinishedBand>(PictureNumber, std::size_t device, uint band,
                                               const WorkProgress&)>
         fetch;

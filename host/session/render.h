@@ -107,8 +107,9 @@ void add_beauty(std::span<const float> rows, Hasher& hasher);
 /// Renders one picture, or the mean of several passes. Only a session's first report includes the seconds of
 /// getting ready. From a checkpoint of the same scene and settings and the same kind of device, the picture
 /// becomes the one of an uninterrupted render, to the bit; the report counts the passes of both, but the
-/// time, memory and devices of this one. If the checkpoint has whole passes, `hooks.open` gets a view
-/// as pass 0 has it, and no VPLs.
+/// time, memory and devices of this one. If the checkpoint has whole passes, `hooks.open` gets a view as pass
+/// 0 has it, and no VPLs. Throws Error(ErrorKind::invalid_argument) if averages_passes() and the VPLs come
+/// from a file, which has the same for every pass.
 RenderReport render(Session& session, const RenderSettings& settings, const RenderHooks& hooks,
                     PassStart pass_start = {});
 

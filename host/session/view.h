@@ -20,15 +20,17 @@ struct View {
     /// (VplSet::ray_budget).
     bool clamp_radius_is_open = false;
     bool has_ray_budget_pilot = true;      ///< whether Session::sample() runs the pilot of ray_budget.h
-    float sky_part = 0.0f;                 ///< of rays of what the camera sees that meet the sky (sky_part.h)
+    float sky_part = 0.0f;                 ///< what sky_part() of sky_part.h says of the pilot view
     uint max_depth = kUnlimitedPathDepth;  ///< maximum path length, as Mitsuba counts it
     uint seed = 0;                         ///< seed of the pilot view
+
+    /// The maximum depth of a VPL.
     [[nodiscard]] uint bounce_count() const { return max_depth > 2 ? max_depth - 2 : 0; }
 };
 
 /// Decides what the settings leave open: it takes size and depth from camera and scene, sets the range so
 /// that the close range holds nine tenths of what the camera sees, and sets the clamp radius to a twentieth
-/// of the range.
+/// of the range. Leaves View::openings and View::sky_part to the caller.
 View choose_view(Device& device, CameraPass& camera_pass, const DeviceScene& device_scene, const Scene& scene,
                  const SceneCamera& camera, const ViewSettings& settings, uint seed);
 

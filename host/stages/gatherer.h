@@ -124,7 +124,8 @@ class Gatherer {
     /// packet's bundle, times their number. Sums are formed in a fixed order, so their bits depend neither on
     /// the division into launches nor on the number of threads. Pairs that contain NaN or infinity contribute
     /// nothing. Waits for the device. Returns false if `progress` cancelled; the sums then cover only part of
-    /// the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with strata or a selection.
+    /// the VPLs. Throws Error(ErrorKind::invalid_argument) for groups together with strata or a selection and
+    /// for sums of fewer groups, and Error(ErrorKind::failure) for a tree of another kernel.
     template <typename Source>
     bool gather(const GatherInput<Source>& input, GatherSums<Source>& sums,
                 const GatherProgress& progress = {});

@@ -12,7 +12,7 @@ class LightVisibility {
     explicit LightVisibility(Device& device);
 
     /// Sets selected[id] = 1 for each of the first `id_count` triangle ids where some light reaches a test
-    /// point.
+    /// point. All other elements stay as they are.
     void run(const DeviceScene& scene, const Buffer<uint>& ids, std::size_t id_count, uint seed,
              Buffer<uint>& selected);
 

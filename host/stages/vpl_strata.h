@@ -26,9 +26,9 @@ struct VplStrata {
         return divide_rounding_up(vpl_count, count);
     }
 
-    uint count = 1;
-    uint period = 1;
-    Buffer<uint> of_bundles;
+    uint count = 1;           ///< number of strata
+    uint period = 1;          ///< bundles after which their strata repeat
+    Buffer<uint> of_bundles;  ///< strata of the first `period` bundles; empty if there is only one
 };
 
 }  // namespace nearlight::core

@@ -20,7 +20,7 @@ struct DeviceEntry {
     std::string name;
     std::string platform;
     std::string version;  ///< OpenCL version of the device, e.g. "OpenCL 3.0 PoCL HSTR: …"
-    std::string driver;
+    std::string driver;   ///< version of the driver
     DeviceKind kind = DeviceKind::other;
     unsigned compute_units = 0;
     unsigned float_width = 0;  ///< floats per vector (CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT)
@@ -53,7 +53,7 @@ std::string what_kernels_miss(std::initializer_list<std::string> versions, const
 DeviceList list_devices();
 
 /// Chooses devices by `choice`, a list of items with commas between them. An item is an index, "cpu", "gpu",
-/// "all", or part of a name in any case. Each can end in "/N", which makes N equal parts of the device
+/// "all", or part of a name in any case. Each can end in "/N", which takes N equal parts of the device as
 /// devices of their own, or in "/N.K", which takes only part K, counted from 0. An empty choice takes
 /// NEARLIGHT_DEVICE from the environment, else the first GPU, else the first CPU, else the first device. Each
 /// device comes once; only "all", lists and parts give several devices. Throws Error(ErrorKind::no_device),
