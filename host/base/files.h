@@ -20,8 +20,8 @@ std::string missing_folder_text(const std::filesystem::path& file);
 /// Throws Error(ErrorKind::file).
 void write_parts(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts);
 void write_text(const std::filesystem::path& file, std::string_view text);
-/// Why there is no use in opening a file for reading, as in "no such file"; empty if there is some. What is
-/// not a regular file, such as a pipe or a device, may never end.
+/// Why a file is not worth opening for reading, such as "no such file"; empty if it is. What is not a regular
+/// file, such as a pipe or a device, is not, because it may never end.
 std::string reason_not_to_read(const std::filesystem::path& file);
 /// Reads the whole file. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);

@@ -38,7 +38,7 @@ class ForkJoin {
     auto task(const Work& work) {
         return Task<Work>{&work, &forked_, &joined_};
     }
-    /// The same for what combines the results of tasks.
+    /// What combines the results of two tasks, which must outlive the call, as oneTBB takes it.
     template <typename Work>
     auto combination(const Work& work) {
         return Task<Work>{&work, &joined_, &joined_};

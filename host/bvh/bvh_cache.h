@@ -15,10 +15,9 @@ struct BvhCacheConfig {
     std::uintmax_t max_bytes = 1u << 30u;  ///< size of all files; the least recently used are removed
 };
 
-/// Returns what build_scene_tree() gives, bit by bit. They come from the cache if it has the trees of the
-/// same vertices, triangles, `config` and `shapes`; otherwise they are built and kept. A
-/// damaged file counts as missing, and a failure to write is no error. A file has 40 bytes a triangle and
-/// shape.
+/// Returns what build_scene_tree() makes, bit by bit. It comes from the cache if that has a tree of the same
+/// vertices, triangles, `config` and `shapes`; otherwise it is built and kept. A damaged file counts as
+/// missing, and a failure to write is no error. A file has 40 bytes a triangle and shape.
 ShapedBvh find_or_build_scene_tree(const Scene& scene, const BvhConfig& config, const TreeShapes& shapes,
                                    const BvhCacheConfig& cache);
 

@@ -26,7 +26,7 @@ constexpr double kPrior = 8.0;
 constexpr std::size_t kSurveyParts = 4;
 constexpr std::size_t kNodeGrain = 1u << 12u;
 
-/// The result below a box of a segment that meets the box.
+/// What a segment finds below a box that it meets.
 struct Passage {
     bool hit = false;
     uint cost = 0;  ///< number of nodes and triangles visited

@@ -20,7 +20,8 @@ struct SparseSet {
 SparseSet draw_sparse_set(SamplerStages& stages, const SamplingTask& task, std::span<const Vpl> deposits,
                           std::span<const float> weights, std::size_t wanted, uint seed);
 
-/// As draw_sparse_set(), among deposits of its own, by what these bring to the camera.
+/// Draws a set as draw_sparse_set() does, but among deposits that it traces itself, and in proportion to what
+/// these bring to the camera.
 SparseSet trace_sparse_set(SamplerStages& stages, const SamplingTask& task, uint wanted, uint seed);
 
 /// How many samples each point takes.

@@ -12,8 +12,8 @@ namespace nearlight::core {
 
 /// About how much work the parts of a picture are, in strips of equal height from its top to its bottom, in
 /// any unit: a pixel of sky costs a twentieth of a receiver, and surfaces that also reflect like mirrors cost
-/// twice as much as others. Counts the receivers of a small picture of such a batch, which takes
-/// milliseconds.
+/// twice as much as others. Counts the receivers of a small picture, whose paths are followed as those of
+/// `batch`; this takes milliseconds.
 std::vector<double> work_of_strips(Device& device, CameraPass& camera_pass, const DeviceScene& scene,
                                    const SceneCamera& camera, const CameraBatch& batch, uint seed);
 

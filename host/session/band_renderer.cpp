@@ -37,8 +37,7 @@ ReceiverPathSettings path_settings(const DeviceScene& scene, const PictureTask& 
             .shares_reflections = shares_lights(picture) && scene.has_rough_gloss};
 }
 
-/// A batch of the plan, which knows only how samples are divided, with how they lie and what it takes to add
-/// up light.
+/// A batch of the plan with all else that the camera pass needs: the plan knows only how samples are divided.
 CameraBatch with_light(CameraBatch batch, const PictureTask& picture, const ReceiverPathSettings& paths) {
     batch.spread_single_samples = picture.settings.spread_single_samples;
     batch.max_depth = picture.max_depth;
@@ -201,7 +200,8 @@ void BandRenderer::trace_sharing_receivers(std::size_t packets) {
     }
 }
 
-/// Direct light of a batch's receivers, and what their rays find.
+/// Finds the direct light of a batch's receivers and what their rays bring. Both are 0 as far as the settings
+/// leave them out.
 void BandRenderer::trace_receivers(std::size_t packets) {
     if (picture_.settings.indirect_only && !picture_.settings.compensate) {
         buffers_.direct.fill_zero();

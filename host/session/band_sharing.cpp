@@ -174,8 +174,8 @@ void work(Board& board, std::size_t index, const BandWorker& worker, BandShare& 
         share.failed = true;
         error = std::current_exception();
     }
-    // From then on, only the caller has the exception, which is counted by a library that sanitizers cannot
-    // see into.
+    // From then on, only the caller holds the exception. Its references are counted in a library that
+    // sanitizers cannot see into, so that they would report a race if this thread let go of it, too.
     board.leave(index, in_hand, std::move(error));
 }
 

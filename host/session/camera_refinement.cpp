@@ -8,8 +8,8 @@
 namespace nearlight::core {
 namespace {
 
-/// The number of the first samples that are the first half, where each pixel has `times` times
-/// `sample_count`.
+/// How many samples, from the first on, make the first half where each pixel has `times` times `sample_count`
+/// of them.
 uint first_half(uint sample_count, uint times) {
     return sample_count / 2 * times;
 }

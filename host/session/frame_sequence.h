@@ -23,7 +23,7 @@ int key_step(const AnimationOptions& options);
 /// Where a sequence of frames takes its scenes from.
 struct FrameSource {
     std::function<Scene(const SceneMoment&)> load;
-    /// As camera_at() of scene_loader.h.
+    /// Does what camera_at() of scene_loader.h does.
     std::function<std::optional<SceneCamera>(const Scene&, const SceneMoment&)> camera_at;
     std::function<void()> before_change{};  ///< called before the scene changes; may be empty
     /// Called after it has changed, with the seconds that took; may be empty.

@@ -9,7 +9,8 @@
 namespace nearlight::core {
 namespace {
 
-/// The VPLs of all sets that are kept. More are made again for each picture, which takes time but no memory.
+/// The maximum number of VPLs in all sets that are kept. Sets beyond it are made again for each picture,
+/// which takes time but no memory.
 constexpr std::size_t kMaxKeptVpls = std::size_t{1} << 22u;
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace nearlight::core {
 
-/// Sets as one, with the VPLs on the host.
+/// Several sets of VPLs as one, whose VPLs are on the host.
 struct JoinedVpls {
     VplSet set;  ///< without its VPLs
     std::vector<Vpl> vpls;

@@ -57,7 +57,7 @@ class MatteCounter {
     struct Kind {
         TriangleNames names;
         std::vector<std::uint32_t> ids;            ///< bits of the identifier of each name
-        std::vector<std::vector<Share>> pixels{};  ///< the first so many count
+        std::vector<std::vector<Share>> pixels{};  ///< the first pixel_count_ are in use
     };
 
     static void count(std::uint32_t id, std::vector<Share>& shares);

@@ -12,7 +12,7 @@ namespace nearlight::core {
 /// Whether a picture has several passes, or ends by time or error.
 bool may_have_passes(const RenderSettings& settings);
 
-/// Whether the samples per pixel of these passes say anything about the picture's error. A single one does
+/// Whether the samples per pixel of these passes say anything about the picture's error. A single sample does
 /// not.
 bool tells_error(std::span<const uint> samples);
 
@@ -21,7 +21,7 @@ bool tells_error(std::span<const uint> samples);
 uint pass_seed(uint seed, uint pass);
 
 /// The fewest samples per pixel that the first pass may have: 2, because a single sample says nothing about
-/// its error, or 1 if all passes of the picture are such.
+/// its error, or 1 if the settings ask for one.
 uint min_pass_samples(const GatherSettings& settings);
 
 /// The fewest samples per pixel that a pass after the first may have: as many as splats need, if the picture

@@ -10,9 +10,9 @@
 namespace nearlight::core {
 
 /// What the variance of each channel of each pixel is compared with: b² + m²/100, where b is the mean of the
-/// channel over the pixel's tile and m the mean of all channels of the picture. Tiles, because a pixel that
-/// is too bright by chance would otherwise hide its own error. `beauty` holds R, G and B of each pixel, row
-/// by row.
+/// channel over the pixel's tile and m the mean of all channels of the picture. The mean is that of a tile,
+/// because a pixel that is too bright by chance would otherwise hide its own error. `beauty` holds R, G and B
+/// of each pixel, row by row.
 std::vector<float> error_norms(std::span<const float> beauty, uint width);
 
 /// The root of the mean of variance ÷ norm over all channels and pixels but the thousandth with the largest

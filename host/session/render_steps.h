@@ -15,7 +15,7 @@ struct Prepared {
     std::shared_ptr<PlannedPicture> planned{};  ///< null: it is planned when it is gathered
 };
 
-/// Looks at the scene.
+/// Looks at the scene, and notes in the report what the view decides.
 View look(Session& session, const RenderSettings& settings, RenderReport& report);
 
 /// Looks at the scene and makes VPLs, with `vpls` unless that is empty. `settings` are those of the pass.

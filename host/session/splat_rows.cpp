@@ -70,7 +70,8 @@ void store_filtered(const RowSplat& splat, uint samples, float* pixel) {
 }  // namespace
 
 uint splat_reach(const PixelFilter& filter, const GatherSettings& settings) {
-    const double beyond = filter.radius - 0.5;  // of the farthest sample's distance from its own pixel
+    // How far from a pixel's edge, in pixels, samples count in it.
+    const double beyond = filter.radius - 0.5;
     const bool is_possible = settings.splat && settings.samples_per_pixel >= kMinSplattedSamples &&
                              !is_pixel_box(filter) && beyond <= NEARLIGHT_MAX_SPLAT_REACH;
     return is_possible && beyond > 0.0 ? static_cast<uint>(std::ceil(beyond)) : 0;

@@ -12,7 +12,7 @@
 
 namespace nearlight::core {
 
-/// With fewer samples a pixel, their weights add up to too different sums.
+/// With fewer samples a pixel, the sums of their weights differ too much from pixel to pixel.
 inline constexpr uint kMinSplattedSamples = 4;
 
 /// Camera::splat_reach for pictures with a filter: 0 if samples count in their own pixel alone. That is so

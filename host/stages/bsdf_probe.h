@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// BSDFs of points on triangles, as kernels compute them: for checks, no picture needs this.
+// BSDFs of points on triangles, as kernels compute them. Only checks need this, no picture does.
 #pragma once
 
 #include <array>

@@ -48,7 +48,7 @@ constexpr bool are_in_middle(uint samples_per_pixel, bool spread_single_samples)
     return samples_per_pixel == 1 && !spread_single_samples;
 }
 
-/// The order of the receiver packets of a batch of so many pixels' width.
+/// The order of the receiver packets of a batch that is `width` pixels wide.
 PacketOrder packet_order(const CameraBatch& batch, uint width);
 /// The number of receiver packets in a batch: tiles × samples × branches, with tiles filled up to whole
 /// bundles.

@@ -16,7 +16,7 @@ namespace nearlight::core {
 /// most NEARLIGHT_CUT_MAX_ROOTS nodes.
 struct CutTree {
     Buffer<CutNode> nodes;
-    std::vector<uint> first_nodes;  ///< of each level, and the number of nodes
+    std::vector<uint> first_nodes;  ///< the first node of each level, and last the number of nodes
 
     [[nodiscard]] uint leaf_count() const { return first_nodes[1]; }
     [[nodiscard]] uint first_root() const { return first_nodes[first_nodes.size() - 2]; }

@@ -25,7 +25,7 @@ class RayCaster {
     /// Returns 1 for each ray that hits anything, 0 for the others. Uploads the tree and waits for the
     /// device.
     std::vector<uint> any_hits(const Bvh& bvh, std::span<const RayQuery> rays);
-    /// The same for a tree that is on the device.
+    /// Does as any_hits() with a tree that is on the device.
     std::vector<uint> occluded(const DeviceTree& tree, std::span<const RayQuery> rays);
 
   private:

@@ -157,8 +157,8 @@ void leave_terminal() {
 
 /// Serves requests and never returns, because the worker must not go on with the work of the calling process.
 [[noreturn]] void run_worker(int socket, pid_t parent) {
-    // Ctrl-C, or its closing, goes to all processes of a terminal, but the parent decides when it no longer
-    // needs kernels.
+    // Ctrl-C in a terminal, or closing it, signals all of its processes, but the parent decides when it needs
+    // no more kernels.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
     std::signal(SIGHUP, SIG_IGN);

@@ -19,7 +19,7 @@
 namespace nearlight::core {
 namespace {
 
-/// What errors of OpenCL concern.
+/// The program, for messages about errors of OpenCL.
 std::string subject_of(const ProgramRequest& request) {
     return "kernels/" + request.file + " on device " + request.entry.name;
 }
