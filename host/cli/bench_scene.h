@@ -6,7 +6,7 @@
 
 namespace nearlight::core {
 
-/// Adds the optional positional SCENE, -D and --strict.
+/// Adds the options of add_scene_options(), where SCENE may be missing.
 void add_bench_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Makes the scene. "spheres:N" is a generated room of N triangles; anything else is a file. Throws

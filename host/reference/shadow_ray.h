@@ -15,7 +15,7 @@ struct ShadowRay {
 
 /// What remains at the position of the light that was picked, where a path has room for `max_veils` more
 /// surfaces; NEARLIGHT_MAX_VEILS are passed at most. Veils (see veil_transmittance()) block delta lights
-/// unless the scene has clear glass.
+/// unless the scene has clear glass or open veils.
 ShadowRay shadow_ray(const Scene& scene, const EmbreeScene& embree, Vec3 position, const LightPick& pick,
                      int max_veils, Vec3 scene_size);
 

@@ -27,8 +27,8 @@ PictureWindow picture_window(const SceneCamera& camera, int width, int height);
 /// or a field of view that is not between 0 and 180 degrees.
 Camera make_camera(const SceneCamera& camera, int width, int height);
 
-/// The camera with this horizontal field of view of its film, as a perspective one, which keeps no scale.
-/// Throws Error(ErrorKind::invalid_argument) if it is not between 0 and 180 degrees.
+/// The camera as a perspective one whose film has this horizontal field of view; the scale of an orthographic
+/// one is lost. Throws Error(ErrorKind::invalid_argument) if the field is not between 0 and 180 degrees.
 SceneCamera with_field_of_view(SceneCamera camera, double fov_x_degrees);
 
 /// Where a camera stands and looks, to more digits than a CameraPose has: far from the origin, directions
@@ -50,16 +50,18 @@ CameraPose pose_of(const SceneCamera& camera);
 SceneCamera posed(SceneCamera camera, const CameraPose& pose);
 SceneCamera posed(SceneCamera camera, const ExactPose& pose);
 
-/// The ray through the centre of a pixel, and of the lens; the direction has unit length.
+/// The ray through the centre of a pixel and of the lens, from the near clip to the far one; the direction
+/// has unit length.
 RayQuery pixel_ray(const Camera& camera, uint x, uint y);
 
-/// The point on the film, in pixels from the top left corner, where the camera sees `point` through the
-/// middle of its lens. Empty for points that are not in front of the camera.
+/// A place in the plane of the film, which may lie beyond the borders of the picture.
 struct FilmPosition {
-    double x = 0.0;
-    double y = 0.0;
+    double x = 0.0;         ///< pixels from the left border of the picture
+    double y = 0.0;         ///< pixels from its top border
     double distance = 0.0;  ///< from where the ray starts to the point, m
 };
+/// Where the camera sees `point` through the middle of its lens. Empty for points that are not in front of
+/// the camera.
 std::optional<FilmPosition> film_position(const SceneCamera& camera, Vec3 point);
 
 }  // namespace nearlight::core

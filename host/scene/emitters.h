@@ -18,8 +18,10 @@ bool is_delta_light(const Emitter& emitter);
 struct EmitterTable {
     /// Directional lights, other delta lights, area lights, the sun, the environment; cdf ends at exactly 1.
     std::vector<Emitter> emitters;
-    std::vector<LightNode> light_tree;  ///< over some of them (light_tree.h)
-    uint tree_first = 0, tree_end = 0;  ///< those of the tree: entries of the table; equal: no tree
+    /// Over the entries of `emitters` from tree_first on and before tree_end (light_tree.h); if these are
+    /// equal, there is no tree.
+    std::vector<LightNode> light_tree;
+    uint tree_first = 0, tree_end = 0;
     uint delta_emitter_count = 0;
     float total_power = 0.0f;  ///< luminance of all emitted flux, W
 };
@@ -27,9 +29,9 @@ struct EmitterTable {
 /// directional lights, the sun, the sky) gets the same part of the probability, in proportion to the
 /// luminance of emitted power within the kind. Power is π·area·radiance of an area light, 4π·intensity of a
 /// point, the intensity of a spot integrated over its falloff, that of a projector over its image, and all
-/// light of the environment or of a directional light that enters the sphere around the scene, πR²·∫ L dω and
-/// πR²·E. Images count by their mean. Lights without power are left out; the table is empty if nothing emits.
-/// `probability` is exactly the step of `cdf` (distribution.h).
+/// light that enters the sphere around the scene, πR²·∫ L dω of the environment or its sun and πR²·E of a
+/// directional light. Images count by their mean. Lights without power are left out; the table is empty if
+/// nothing emits. `probability` is exactly the step of `cdf` (distribution.h).
 EmitterTable build_emitter_table(const Scene& scene);
 
 }  // namespace nearlight::core

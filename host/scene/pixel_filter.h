@@ -10,8 +10,8 @@
 namespace nearlight::core {
 
 enum class FilterKind { box, tent, gaussian, mitchell, catmull_rom, lanczos };
-/// Mitsuba's filter where a file says nothing, and that of formats that know no filters. It has about a third
-/// of a box's noise, because each sample counts in all pixels that the filter reaches.
+/// Mitsuba's filter where a file says nothing, and that of formats that know no filters. Its pictures have
+/// about a third of a box's variance, because each sample counts in all pixels that the filter reaches.
 inline constexpr FilterKind kUsualFilter = FilterKind::gaussian;
 
 /// A filter with its parameters. Two filters whose relevant parameters are equal are the same.

@@ -59,14 +59,14 @@ struct RoundLamp {
 
 /// Light from all directions, as a latitude-longitude map; 1 × 1 pixel if it is constant. The centre of pixel
 /// (column i, row j) shines from the local direction (sin φ·sin θ, cos θ, −cos φ·sin θ) with φ = 2π·(i +
-/// 0.5)/width and θ = π·(j + 0.5)/height, as in Mitsuba's `envmap`; radiance is constant over a pixel.
+/// 0.5)/width and θ = π·(j + 0.5)/height, and radiance is constant over a pixel, unless it is interpolated.
 struct EnvironmentLight {
     int width = 0;  ///< 0 if there is no environment
     int height = 0;
     std::vector<Vec3> radiance;  ///< width·height, top row (+Y) first
     Mat4 to_world;               ///< rotation only
     /// Whether radiance is interpolated between pixels, as in Mitsuba's `envmap`: columns have their centres
-    /// at (i + 0.5)/width, and rows lie at θ = π·j/(height − 1). Otherwise it is constant over a pixel.
+    /// at (i + 0.5)/width, and rows lie at θ = π·j/(height − 1).
     bool is_interpolated = false;
     /// A sun in front of the map: a disc of even radiance. The angle is 0 if there is none.
     Vec3 sun_direction{0, 0, 1};  ///< in the world, towards the sun

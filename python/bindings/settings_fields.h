@@ -68,7 +68,7 @@ struct FieldsOf<SamplingSettings> {
         Field{"cuts", &SamplingSettings::cuts,
               "whether the set holds more VPLs, of which pixels ask those that could bring most"},
         Field{"set_count", &SamplingSettings::set_count,
-              "about how many VPLs the set has, with cuts; None: 64 times vpl_count"},
+              "about how many VPLs the set has, with cuts; None: 64 times vpl_count, but at most 2^20"},
         Field{"close_fraction", &SamplingSettings::close_fraction,
               "share of VPLs in the close range, 0 to 1; None: a pilot chooses"},
         Field{"file", &SamplingSettings::file,
@@ -164,7 +164,8 @@ struct FieldsOf<AnimationOptions> {
     static constexpr auto fields = std::tuple{
         Field{"fps", &AnimationOptions::fps, "frames per second: frame N shows the time N / fps"},
         Field{"animations", &AnimationOptions::animations,
-              "names or numbers, from 1, of those to play; []: all but those that move the same thing"},
+              "names or numbers, from 1, of those to play; []: all but those that move what an earlier one "
+              "moves"},
         Field{"vpl_keys", &AnimationOptions::vpl_keys,
               "where only the camera moves, VPLs are made every so many frames; 0: for each; None: as fps"}};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A clear sky and its sun, as Mitsuba 3's `sunsky` has them in RGB. The frame is that of the plugin: +Z is
-// up, +X is north.
+// up. For sun_direction(), +X is south and +Y is west, although Mitsuba's manual calls +X north.
 #pragma once
 
 #include <array>
