@@ -16,7 +16,8 @@ constexpr float kHurry = 4.0f;
 /// A frame of the window that took longer, as when the program was stopped, counts as this long.
 constexpr float kMaxSeconds = 0.1f;
 
-/// Looking about keeps what is under the mouse under it.
+/// When the view looks about, a drag over the whole width of the picture turns it by this angle, in radians,
+/// so that what is under the mouse stays there.
 float look_angle(const FreeCamera& camera) {
     const double degrees = camera.fov_degrees > 0.0 ? camera.fov_degrees : kDefaultFieldOfView;
     return static_cast<float>(degrees * std::numbers::pi / 180.0);

@@ -23,7 +23,7 @@ constexpr std::array kLayers{
     ShownLayer{"closerange", "what lies in the close range"},
 };
 
-/// The mix of a pixel with the tint of the close range.
+/// The colour that tints the close range, and its share in a pixel there.
 constexpr std::array<std::uint8_t, 3> kCloseTint{40, 150, 255};
 constexpr float kTintShare = 0.35f;
 
@@ -61,6 +61,8 @@ struct Extent {
     [[nodiscard]] float part(float value) const { return max > min ? (value - min) / (max - min) : 0.0f; }
 };
 
+/// The least and the greatest value of a channel. Zeros do not count, because pixels without a surface have
+/// them.
 Extent extent_of(const Image& image, std::size_t channel) {
     Extent extent;
     for (std::size_t i = channel; i < image.values.size(); i += image.channels.size()) {

@@ -21,12 +21,12 @@ struct Frame {
     /// The VPLs of its latest pass, on the device and on the host.
     std::optional<VplSet> vpls{};
     std::shared_ptr<const std::vector<VirtualPointLight>> lights{};
-    std::uint64_t state = 0;  ///< number of the request that it shows
+    std::uint64_t state = 0;  ///< Step::state of the step that made it
     int divisor = 1;          ///< above 1, it is a small picture, made during a motion
     /// Per pixel, in all passes; 0 for small pictures and for the first one, which the first pass replaces.
     std::uint32_t samples = 0;
     double seconds = 0.0;          ///< that its latest step took
-    double seconds_to_full = 0.0;  ///< from the request to its first picture of full size; 0 before that
+    double seconds_to_full = 0.0;  ///< from the latest change to its first picture of full size; 0 before
 
     /// What a window shows.
     [[nodiscard]] const Image& shown() const { return smoothed ? *smoothed : image; }

@@ -49,8 +49,8 @@ struct Move {
     double processor_seconds = 0.0;
 };
 
-/// A hand that moves the camera, and what it sees. What waits for a picture returns nothing if the program is
-/// interrupted.
+/// A hand that moves the camera, and what it sees. What waits for a picture returns nothing, or false, if the
+/// program is interrupted.
 class Hand {
   public:
     explicit Hand(const ViewerTask& task)

@@ -143,7 +143,7 @@ void Renderer::run(const Devices& devices, const std::function<Scene()>& load) {
     on_news_();
 }
 
-/// Waits for something to do; nothing at the end.
+/// Waits for something to do. Returns nothing when the renderer is to end.
 std::optional<Renderer::Job> Renderer::next_job() {
     std::unique_lock lock(mutex_);
     std::optional<Step> step;

@@ -15,7 +15,8 @@ namespace {
 constexpr float kMinCosine = 0.9f;
 /// Depths of one surface differ at most by this part.
 constexpr float kMaxDepthStep = 0.04f;
-/// Surfaces that reflect less are left as they are, because division by their albedo says nothing.
+/// Surfaces that reflect less of a colour are left as they are, because division by their albedo says
+/// nothing.
 constexpr float kMinAlbedo = 0.01f;
 
 /// What decides which pixels show the same surface, and the light that falls on it.

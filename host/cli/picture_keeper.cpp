@@ -9,7 +9,7 @@ namespace nearlight::core {
 namespace {
 
 constexpr double kLeastSeconds = 5.0;
-/// Of the time, for all files together.
+/// What part of the time writing may take, for both files together.
 constexpr double kMaxShare = 0.02;
 /// What writing a pixel of all layers took on two busy cores (docs/reliability.md).
 constexpr double kCheckpointSecondsPerPixel = 1.5e-6;

@@ -19,15 +19,15 @@ constexpr std::chrono::milliseconds kUpdateInterval{100};
 /// After this much of the work or of time, drivers have compiled what they compile when kernels first run.
 constexpr double kIgnoredPart = 0.05;
 constexpr double kIgnoredSeconds = 10.0;
-/// From there on the pace is measured when this much more is done; before, from the first news on, because
-/// work comes in pieces whose halves may differ.
+/// When this much more of the work is done, the pace is measured from there on. Before, it is measured from
+/// the first news on, because work comes in pieces whose halves may differ.
 constexpr double kSurePart = 0.15;
-/// It says something after this time and this much of the work, or after ten times as long.
+/// A pace that was measured over this time and this much of the work, or over ten times as long, is no guess.
 constexpr double kMeasuredSeconds = 1.0;
 constexpr double kMeasuredPart = 0.05;
 /// Work whose fraction falls by more than this was begun anew, with less to do.
 constexpr double kBegunAnew = 0.1;
-/// Of a fraction of the work, in steps.
+/// Fractions of the work have smaller errors than this, as numbers of steps.
 constexpr double kRounding = 1e-6;
 
 std::string minutes_and_seconds(double seconds) {

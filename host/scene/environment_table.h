@@ -19,9 +19,10 @@ struct EnvironmentTable {
     /// Cumulative distributions (distribution.h) of the rows of blocks, and of the blocks of each row.
     std::vector<float> row_cdf;     ///< block_rows
     std::vector<float> column_cdf;  ///< block_columns·block_rows
-    /// For each block where its distribution of pixels begins in detail_cdf, or NEARLIGHT_NO_DETAIL.
+    /// For each block, where its distributions of pixels begin in detail_cdf, or NEARLIGHT_NO_DETAIL.
     std::vector<uint> block_details;
-    /// Of the rows of a block, and then of the pixels of each row; for all blocks that have details.
+    /// For each block that has details, the distribution of its rows of pixels, and then those of the pixels
+    /// of each row.
     std::vector<float> detail_cdf;
 };
 

@@ -38,18 +38,18 @@ struct SceneOverrides {
     std::optional<SunPosition> sun{};  ///< a sun, whose place the sky follows
     double light_scale = 1;            ///< of all light
 
-    /// Whether they bring light of their own.
+    /// Whether the overrides bring light of their own.
     [[nodiscard]] bool bring_light() const { return !environment.empty() || sun.has_value(); }
 };
 
-/// Where the camera of the scene stands, or where the caller places it.
+/// Where the camera of the scene stands, or where the overrides place it.
 Vec3 eye_of(const Scene& scene, const SceneOverrides& overrides);
 
-/// A camera of the file's as they leave it; `scene` is what it may look at the middle of.
+/// A camera of the file with its overrides. With an origin but no target, it looks at the middle of `scene`.
 SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverrides& overrides);
 
-/// Applies them to a complete scene. Throws Error: ErrorKind::invalid_argument for a number that is not
-/// finite or out of range, or a camera that posed() refuses; ErrorKind::file for an environment that
+/// Applies the overrides to a complete scene. Throws Error: ErrorKind::invalid_argument for a number that is
+/// not finite or out of range, or a camera that posed() refuses; ErrorKind::file for an environment that
 /// cannot be read.
 void apply_overrides(Scene& scene, const SceneOverrides& overrides, NoteSink& notes);
 

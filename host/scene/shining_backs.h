@@ -8,8 +8,9 @@
 
 namespace nearlight::core {
 
-/// The material of the back of a surface that shines. That of a plain opaque surface is the same; others get
-/// one that only shines, because their light passes through, and their maps are seen on, the fronts.
+/// The material of the back of a surface that shines. Diffuse and two-sided surfaces have their own on the
+/// back, too. Others get one that only shines and lets the rest through, because their maps and what they do
+/// to light that passes belong to the front.
 uint add_back_material(Scene& scene, uint front);
 
 /// Adds the back of a surface that shines to both sides. It stands behind the front, at a distance that rays

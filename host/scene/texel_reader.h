@@ -18,20 +18,22 @@ namespace nearlight::core {
 struct TexelRule {
     /// 0: sRGB-encoded, except in files of floats; otherwise linear = number to the power of gamma.
     float gamma = 0.0f;
-    bool is_number = false;      ///< one number, the luminance of the colour
-    bool is_signed = false;      ///< numbers below 0 mean something
-    int channel = -1;            ///< this channel alone, linear; 3 is alpha, which is 1 where there is none
-    bool is_encoded = false;     ///< of a channel but alpha: `gamma` holds for it, too
+    bool is_number = false;  ///< one number, the luminance of the colour
+    bool is_signed = false;  ///< numbers below 0 mean something
+    /// This channel alone, or −1 for all. 3 is alpha, which is 1 where there is none.
+    int channel = -1;
+    bool is_encoded = false;     ///< whether `gamma` holds for a channel but alpha; others are linear
     bool prefers_alpha = false;  ///< alpha alone, of images in which it is not 1 everywhere
-    bool is_inverse = false;     ///< of a channel: 1 − factor·number instead of the number
+    bool is_inverse = false;     ///< the texel is 1 − factor·number of the channel instead of the number
     float factor = 1.0f;
-    /// What x and y of a map of normals are multiplied by, which makes it steeper or turns it over.
+    /// The x and y of a map of normals become steepness_x·x + x_of_y·y and y_of_x·x + steepness_y·y, which
+    /// makes the map steeper, turns it or turns it over.
     float steepness_x = 1.0f;
     float steepness_y = 1.0f;
-    /// And what is added to them, times y and x, which turns the map.
     float x_of_y = 0.0f;
     float y_of_x = 0.0f;
-    /// Alpha multiplies linear colours; above an `alpha_cutoff` that is not 0, alpha counts as 1, below as 0.
+    /// Alpha multiplies linear colours. With an `alpha_cutoff` above 0, alpha counts as 1 from there on, and
+    /// as 0 below.
     bool times_alpha = false;
     float alpha_cutoff = 0.0f;
 

@@ -150,9 +150,9 @@ struct GatherSettings {
     /// fewer than four samples do not.
     bool refine = true;
     /// Whether samples count in all pixels whose reconstruction filter reaches them. Neighbours then share
-    /// their noise, which is a fraction of that of pixels of their own samples, but which denoisers find
-    /// harder to tell from the picture. Pictures with fewer than four samples in a pixel, with a filter that
-    /// reaches no other pixel, or with one of a radius above 2.5 pixels, do without.
+    /// their noise: there is much less of it than where each pixel has its own samples alone, but denoisers
+    /// find it harder to tell from the picture. Pictures with fewer than four samples in a pixel, with a
+    /// filter that reaches no other pixel, or with one of a radius above 2.5 pixels, do without.
     bool splat = true;
     /// Leaves out the direct light of receivers. The layer of direct light keeps what camera paths bring on
     /// their own: lights that are seen, mirrored or reflected in highlights, and reflections of little

@@ -33,8 +33,8 @@ void DeviceTurns::begin() {
 }
 
 void DeviceTurns::end() {
-    // While these end, other threads may leave more. The turn ends in the same moment in which none is left,
-    // because nobody else would end what is left after that.
+    // While leftovers are destroyed, other threads may leave more. The turn ends in the same moment in which
+    // none is left, because nobody else would destroy what is left after that.
     std::vector<std::shared_ptr<void>> leftovers;
     do {
         leftovers.clear();

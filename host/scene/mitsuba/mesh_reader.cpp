@@ -36,7 +36,7 @@ struct MeshSource {
 
 /// Which of the meshes of a file the shape is. Only Mitsuba 0.5 and 0.6 choose among those of OBJ files,
 /// where negative numbers stand for all of them. An index stands for one mesh, as their manual says, although
-/// they load the last mesh with the one before it.
+/// those versions take the last two meshes of a file for one.
 std::optional<int> shape_index(const Object& shape) {
     const bool is_obj = shape.type == "obj";
     if ((!is_obj || !shape.is_old) && shape.type != "serialized") {

@@ -35,12 +35,12 @@ class XmlFile {
     bool is_old_ = false;
 };
 
-/// The value that stands for a $name.
+/// What a $name stands for.
 struct Definition {
     std::string value;
     mutable bool is_used = false;  ///< the file has the $name, or a <default> for it
 };
-/// By name.
+/// Definitions by their names, without the dollar.
 using Definitions = std::map<std::string, Definition>;
 
 /// An element whose attributes are read with $names replaced.

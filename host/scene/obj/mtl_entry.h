@@ -20,7 +20,7 @@ enum class Look { glass, principled, mirror, blenders_principled, plastic, diffu
 /// `is_blenders`: the exporter of Blender 2.80 or later wrote the entry.
 Look look_of(const tinyobj::material_t& entry, bool is_blenders);
 
-/// Illumination model 1 has no highlights, whatever Ks says.
+/// Whether the surface has highlights: illumination model 1 has none, whatever Ks says.
 bool has_highlight(const tinyobj::material_t& entry);
 /// The index of refraction, Ni; files that say 1 or nothing mean that of glass and plastics.
 double index_of(const tinyobj::material_t& entry);

@@ -12,7 +12,7 @@
 namespace nearlight::core {
 namespace {
 
-/// The six numbers of `v x y z r g b`; with a weight there are four or seven.
+/// The six numbers of `v x y z r g b`. Empty if there are more or fewer, as where a weight follows z.
 std::optional<std::array<float, 6>> numbers_of_colored_vertex(std::string_view line) {
     std::array<float, 6> numbers{};
     const char* at = line.data() + line.find('v') + 1;

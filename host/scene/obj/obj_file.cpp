@@ -139,7 +139,7 @@ class ObjBuilder {
     std::vector<std::array<float, 2>> uvs;
 
   private:
-    /// Whether the next face is.
+    /// Whether the next face is one of those that are wanted.
     [[nodiscard]] bool is_wanted() const { return faces_ >= wanted_.begin && faces_ < wanted_.end; }
 
     /// Triangles from now on belong to the group of the current material.
