@@ -134,7 +134,7 @@ void Renderer::run(const Devices& devices, const std::function<Scene()>& load) {
             do_job(session, *job);
             on_news_();
         }
-        // What is left of the session's memory goes before the session itself.
+        // These VPLs go before their session; those that frames hold keep what they need of it.
         vpls_.reset();
     } catch (...) {
         const std::lock_guard lock(mutex_);

@@ -16,7 +16,8 @@ struct DenoisingTask {
     int width = 0;
     int height = 0;
     std::size_t pixel_floats = 3;
-    /// The parts of the picture's linear radiance, of any range. They are denoised one by one and added up.
+    /// The parts of the picture's linear radiance, of any range, at least one. They are denoised one by one
+    /// and added up.
     std::vector<const float*> light;
     const float* albedo = nullptr;  ///< [0, 1]
     const float* normal = nullptr;  ///< unit vectors; zero where there is no surface

@@ -64,20 +64,22 @@ struct ImageWriterOptions {
 /// it is.
 class ImageWriter {
   public:
-    /// The extension tells the format. EXR keeps all channels; PNG takes R, G and B,
-    /// tone-mapped to 8-bit sRGB by deterministic rounding without dithering. Throws
-    /// Error(ErrorKind::invalid_argument) for an unknown extension, and Error(ErrorKind::file) if the path
-    /// cannot be written.
+    /// The extension tells the format. EXR keeps all channels; PNG takes R, G and B, tone-mapped to 8-bit
+    /// sRGB by deterministic rounding without dithering. Throws Error(ErrorKind::invalid_argument) for an
+    /// unknown extension, and Error(ErrorKind::file) if the path cannot be written, if the picture has no
+    /// pixels, or if it lacks R, G or B, which PNG needs.
     ImageWriter(const std::filesystem::path& file, int width, int height, std::vector<std::string> channels,
                 const ImageWriterOptions& options = {});
     ~ImageWriter();
     ImageWriter(ImageWriter&&) noexcept;
     ImageWriter& operator=(ImageWriter&&) noexcept;
 
-    /// Writes the next rows, a multiple of width·channels values.
+    /// Writes the next rows, a multiple of width·channels values. Throws Error(ErrorKind::failure) for values
+    /// that are not whole rows or too many, and Error(ErrorKind::file) if they cannot be written.
     void write_rows(std::span<const float> values);
     /// Fills rows that were not written with zeros, closes the file and moves it into place. `late` replaces
-    /// values of float metadata that were given at the start (EXR only).
+    /// values of float metadata that were given at the start (EXR only). Throws Error(ErrorKind::file) if the
+    /// file cannot be written to its end, or not be moved.
     void commit(const std::map<std::string, float>& late = {});
     /// How many values of 16-bit channels were too large for them so far.
     [[nodiscard]] std::size_t limited_count() const;
