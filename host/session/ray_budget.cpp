@@ -179,14 +179,14 @@ std::vector<double> squares_of_light(const PilotLight& light) {
     return sums;
 }
 
-/// The squared error that VPLs leave. With cuts there are two parts: that of the whole set, which is as much
-/// smaller than that of a few VPLs as there are more of them, and that of the draws.
+/// The squared error that VPLs leave: that of the whole set, which is as much smaller than that of a few VPLs
+/// as there are more of them, and with cuts that of the draws, too.
 double error_of_vpls(const BudgetPilot& pilot, Vec3 light, Vec3 squares) {
-    if (pilot.asked_count == 0) {
-        return sum_of(squares);
-    }
     const double of_set =
         sum_of(squares) * static_cast<double>(pilot.vpls.count()) / static_cast<double>(pilot.set_count);
+    if (pilot.asked_count == 0) {
+        return of_set;
+    }
     return of_set + kErrorOfDraw * dot(light, light) / static_cast<double>(pilot.asked_count);
 }
 

@@ -26,6 +26,9 @@ namespace nearlight::core {
 namespace {
 
 constexpr uint kThinningStream = 0x7417eu;
+/// The pilot of the ray budget gathers no more than about twice as many VPLs: more of them would tell little
+/// about rays, and take as long as the choice of the set.
+constexpr std::size_t kMaxPilotVpls = 2048;
 
 std::vector<ReceiverPacket> pack_points(std::span<const Vec3> points, std::span<const Vec3> normals,
                                         float extent) {
@@ -53,8 +56,8 @@ SamplingTask sampling_task(const DeviceScene& scene, const View& view, const Pil
             .seed = seed};
 }
 
-/// About `wanted` of the VPLs, at even distances along their order. Each has the power of all for which it
-/// stands.
+/// About `wanted` of the VPLs, or fewer than twice as many, at even distances along their order. Each has the
+/// power of all for which it stands.
 VplBuffer thinned(Device& device, const VplBuffer& vpls, std::size_t wanted, uint seed) {
     const std::vector<Vpl> all = vpls.download();
     const std::size_t step = all.size() / wanted;
@@ -154,12 +157,12 @@ VplSet Session::sample(const View& view, const SamplingSettings& settings, uint 
             set.asked_count = settings.vpl_count;
         }
         if (view.has_ray_budget_pilot && !set.local && !set.vpls.empty() && pilot.packet_count > 0) {
-            const VplBuffer few =
-                set.asked_count > 0 ? thinned(leader.device(), set.vpls, set.asked_count, seed) : VplBuffer();
+            const std::size_t asked = set.asked_count > 0 ? set.asked_count : set.vpls.count();
+            const VplBuffer few = thinned(leader.device(), set.vpls, std::min(asked, kMaxPilotVpls), seed);
             set.ray_budget = choose_ray_budget({.stages = leader.bands,
                                                 .scene = leader.scene,
                                                 .view = pilot,
-                                                .vpls = set.asked_count > 0 ? few : set.vpls,
+                                                .vpls = few,
                                                 .asked_count = set.asked_count,
                                                 .set_count = set.vpls.count(),
                                                 .max_edges = view.bounce_count() + 1,
