@@ -211,7 +211,7 @@ std::uint64_t write_pictures(const MergeOptions& options, const Merged& merged, 
         add_beauty(rows, hasher);
         picture.add_rows(rows);
     });
-    picture.commit(watch);
+    picture.commit(watch, all_samples(merged.record));
     return hasher.hash64();
 }
 

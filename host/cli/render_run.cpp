@@ -168,7 +168,7 @@ PictureKeeper make_keeper(Session& session, const RenderRun& run, const Checkpoi
                      sinks.open(run, so_far.report, so_far.view);
                      so_far.average.send([&](std::span<const float> rows) { sinks.add_rows(rows, total); });
                      sinks.picture.commit(
-                         total, true,
+                         total, so_far.report.pass_samples, true,
                          mattes_of(session, run, so_far.report, sinks.camera, true, [](double) {}));
                  },
              .warn =
@@ -331,7 +331,7 @@ MadePicture make_picture(Session& session, const RenderRun& run, PictureStart st
     const bool has_rows = sinks.are_written(report);
     if (has_rows && (!run.frame || !report.interrupted)) {
         bar.start("counting mattes");
-        sinks.picture.commit(since_begin, false,
+        sinks.picture.commit(since_begin, report.pass_samples, false,
                              mattes_of(session, run, report, sinks.camera, has_passes,
                                        [&](double done) { bar.update(done); }));
         bar.clear();

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "host/image/image_io.h"
+#include "host/session/passes.h"
 
 namespace nearlight::core {
 namespace {
@@ -25,7 +26,8 @@ std::string RenderedPicture::denoiser() const {
     if (!denoiser_) {
         return "none";
     }
-    return denoiser_->name() + (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N)");
+    return denoiser_->name() +
+           (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N, variance)");
 }
 
 void RenderedPicture::open(int width, int height, Metadata metadata, const ScreenLook& look,
@@ -67,7 +69,7 @@ void RenderedPicture::prepare_to_write() {
     }
 }
 
-void RenderedPicture::denoise() {
+void RenderedPicture::denoise(bool knows_variance) {
     const Stopwatch watch;
     float* const rows = rows_.data();
     std::vector<const float*> light{rows + NEARLIGHT_LAYER_DIRECT, rows + NEARLIGHT_LAYER_INDIRECT};
@@ -81,6 +83,7 @@ void RenderedPicture::denoise() {
                         .light = std::move(light),
                         .albedo = rows + NEARLIGHT_LAYER_ALBEDO,
                         .normal = rows + NEARLIGHT_LAYER_NORMAL,
+                        .variance = knows_variance && !is_fast_ ? rows + NEARLIGHT_LAYER_VARIANCE : nullptr,
                         .thorough = !is_fast_,
                         .output = rows + NEARLIGHT_LAYER_BEAUTY});
     denoising_seconds_ = watch.seconds();
@@ -115,9 +118,10 @@ void RenderedPicture::write_with(const MatteSource& mattes) {
     matte_seconds_ = watch.seconds();
 }
 
-void RenderedPicture::commit(const Stopwatch& since_begin, bool quiet, const MatteSource& mattes) {
+void RenderedPicture::commit(const Stopwatch& since_begin, std::span<const uint> pass_samples, bool quiet,
+                             const MatteSource& mattes) {
     if (denoiser_ && !rows_.empty()) {
-        denoise();
+        denoise(tells_error(pass_samples));
     }
     if (matte_floats_ > 0) {
         write_with(mattes);

@@ -34,11 +34,13 @@ class RenderedPicture {
     void add_rows(std::span<const float> rows);
     /// Denoises what rows there are, joins them with mattes if the options ask for them (zeros for rows that
     /// `mattes` does not send), and completes the files. `since_begin` is for their attribute of the time.
-    /// `quiet` is PictureFiles::commit()'s.
-    void commit(const Stopwatch& since_begin, bool quiet = false, const MatteSource& mattes = {});
+    /// The denoiser learns the variance of the beauty if the passes, whose samples per pixel are
+    /// `pass_samples`, tell it. `quiet` is PictureFiles::commit()'s.
+    void commit(const Stopwatch& since_begin, std::span<const uint> pass_samples, bool quiet = false,
+                const MatteSource& mattes = {});
 
-    /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N)",
-    /// or "none".
+    /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N,
+    /// variance)", or "none".
     [[nodiscard]] std::string denoiser() const;
     [[nodiscard]] double denoising_seconds() const { return denoising_seconds_; }
     [[nodiscard]] double matte_seconds() const { return matte_seconds_; }
@@ -47,7 +49,7 @@ class RenderedPicture {
 
   private:
     void prepare_to_write();
-    void denoise();
+    void denoise(bool knows_variance);
     void write_with(const MatteSource& mattes);
     [[nodiscard]] std::size_t pixel_floats() const;
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "host/image/oidn_library.h"
+#include "host/image/rendered_share.h"
 #include "nearlight/error.h"
 
 namespace nearlight::core {
@@ -32,14 +35,35 @@ using Pixels = std::vector<float>;
 /// Less than any component of a normal, rounding included.
 constexpr float kAnyNormal = 2.0f;
 
-/// Copies three channels, with 0 for what is not finite or less than `min`.
-Pixels cleaned(const float* pixels, const DenoisingTask& task, float min) {
+/// Copies three channels, with `other` for what is not finite or less than `min`.
+Pixels cleaned(const float* pixels, const DenoisingTask& task, float min, float other = 0.0f) {
     Pixels result(static_cast<std::size_t>(task.width) * static_cast<std::size_t>(task.height) * 3);
     for (std::size_t i = 0; i < result.size(); ++i) {
         const float value = pixels[i / 3 * task.pixel_floats + i % 3];
-        result[i] = std::isfinite(value) && value >= min ? value : 0.0f;
+        result[i] = std::isfinite(value) && value >= min ? value : other;
     }
     return result;
+}
+
+/// The sum of the parts of light, each where it is finite.
+Pixels sum_of(const std::vector<Pixels>& parts) {
+    Pixels sum(parts.front().size());
+    for (const Pixels& part : parts) {
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum[i] += std::isfinite(part[i]) ? part[i] : 0.0f;
+        }
+    }
+    return sum;
+}
+
+/// Gives `denoised` back what the denoiser took away without being noise.
+void keep_detail(const DenoisingTask& task, const Pixels& rendered, Pixels& denoised) {
+    const Pixels variance = cleaned(task.variance, task, 0.0f, std::numeric_limits<float>::infinity());
+    const std::vector<float> shares =
+        rendered_shares({task.width, task.height, rendered, denoised, variance});
+    for (std::size_t i = 0; i < denoised.size(); ++i) {
+        denoised[i] += shares[i / 3] * (rendered[i] - denoised[i]);
+    }
 }
 
 }  // namespace
@@ -117,15 +141,16 @@ void Denoiser::denoise(const DenoisingTask& task) {
     for (const float* light : task.light) {
         parts.push_back(cleaned(light, task, 0.0f));
     }
+    Pixels sum = sum_of(parts);
     if (std::min(task.width, task.height) >= kMinSide) {
         state_->filter(task, parts);
-    }
-    for (std::size_t i = 0; i < parts.front().size(); ++i) {
-        float sum = 0.0f;
-        for (const Pixels& light : parts) {
-            sum += std::isfinite(light[i]) ? light[i] : 0.0f;
+        const Pixels rendered = std::exchange(sum, sum_of(parts));
+        if (task.variance != nullptr) {
+            keep_detail(task, rendered, sum);
         }
-        task.output[i / 3 * task.pixel_floats + i % 3] = sum;
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        task.output[i / 3 * task.pixel_floats + i % 3] = sum[i];
     }
 }
 

@@ -21,6 +21,10 @@ struct DenoisingTask {
     std::vector<const float*> light;
     const float* albedo = nullptr;  ///< [0, 1]
     const float* normal = nullptr;  ///< unit vectors; zero where there is no surface
+    /// Of the sum of the light, as far as it is known, otherwise infinite. Where the denoiser changed more
+    /// than that explains, the output keeps some of the light as it was (rendered_share.h). Without it,
+    /// everything is denoised.
+    const float* variance = nullptr;
     /// Takes the noise out of albedo and normals first, and takes the library's best filter instead of its
     /// fastest one.
     bool thorough = true;

@@ -38,7 +38,7 @@ std::string refusal() {
 
 /// A grey picture in whose pixels five floats lie between the layers.
 struct GreyPicture {
-    static constexpr std::size_t kPixelFloats = 14;
+    static constexpr std::size_t kPixelFloats = 17;
 
     GreyPicture(int w, int h)
         : width(w), height(h), values(static_cast<std::size_t>(w * h) * kPixelFloats, 9.0f) {
@@ -48,17 +48,19 @@ struct GreyPicture {
             std::fill_n(values.begin() + i + 6, 3, 1 / std::sqrt(3.0f));
         }
     }
-    /// Denoises into the floats 9 to 11 of each pixel.
-    void denoise(Denoiser& denoiser) {
+    /// Denoises into the floats 9 to 11 of each pixel, whose variance are the floats 12 to 14 if it is known.
+    void denoise(Denoiser& denoiser, bool knows_variance = false) {
         denoiser.denoise({.width = width,
                           .height = height,
                           .pixel_floats = kPixelFloats,
                           .light = {values.data()},
                           .albedo = values.data() + 3,
                           .normal = values.data() + 6,
+                          .variance = knows_variance ? values.data() + 12 : nullptr,
                           .output = values.data() + 9});
     }
     [[nodiscard]] float& light(std::size_t pixel) { return values[pixel * kPixelFloats]; }
+    [[nodiscard]] float& variance(std::size_t pixel) { return values[pixel * kPixelFloats + 12]; }
     [[nodiscard]] float output(std::size_t pixel) const { return values[pixel * kPixelFloats + 9]; }
 
     int width;
@@ -124,6 +126,27 @@ TEST(DenoiserTest, GivesTheLibraryFiniteLightAndKeepsOtherValues) {
             EXPECT_TRUE(picture.values[i] == before[i] || std::isnan(before[i])) << i;
         }
     }
+}
+
+/// In a picture of two halves, one without noise and one whose noise is as large as what the library changes.
+TEST(DenoiserTest, KeepsWhatNoiseDoesNotExplain) {
+    const EnvironmentVariable file("NEARLIGHT_OIDN", fake_library("fake_oidn_2"));
+    Denoiser denoiser;
+    GreyPicture picture(40, 16);
+    for (std::size_t i = 0; i < 640; ++i) {
+        std::fill_n(&picture.variance(i), 3, i % 40 < 20 ? 0.0f : 0.25f * 0.25f);
+    }
+    picture.variance(5) = NAN;
+    picture.denoise(denoiser, true);
+    for (std::size_t i = 40 * 8; i < 640; ++i) {
+        const std::size_t x = i % 40;
+        if (x < 17 || x > 22) {
+            EXPECT_EQ(picture.output(i), x < 20 ? 0.5f : 0.25f) << i;
+        }
+    }
+    EXPECT_EQ(picture.output(2 * 40 + 5), 0.25f) << "nothing is known of a neighbour";
+    picture.denoise(denoiser);
+    EXPECT_EQ(picture.output(40 * 8), 0.25f) << "without a variance, nothing is kept";
 }
 
 /// The tests below need the real library, and are skipped where it is not installed.
