@@ -33,7 +33,7 @@ const Image& ImageReader::read(const ImageSource& source) {
     if (source == last_) {
         return image_;
     }
-    last_ = {};
+    last_.reset();
     image_ = take(source).get();
     last_ = source;
     return image_;

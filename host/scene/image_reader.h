@@ -46,7 +46,7 @@ class ImageReader {
 
     std::deque<ImageSource> expected_;  ///< that nobody has begun to read
     std::deque<Ahead> ahead_;
-    ImageSource last_;  ///< whose image `image_` is
+    std::optional<ImageSource> last_;  ///< whose image `image_` is; none before the first and after an error
     Image image_;
 };
 

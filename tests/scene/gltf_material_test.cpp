@@ -192,8 +192,9 @@ TEST_F(GltfLoader, TexturesInFilesAndInBuffers) {
         expect_close(side_of(scene).reflectance.value, {1, 1, 1});
     }
     gltf_.root["bufferViews"].back()["byteLength"] = 1'000'000;
-    for (const auto& [image, part] :
-         {std::pair{json{{"uri", "missing.png"}}, "missing.png"}, {in_buffer, "beyond"}}) {
+    for (const auto& [image, part] : {std::pair{json{{"uri", "missing.png"}}, "missing.png"},
+                                      {json{{"uri", ""}}, "the URI of image 0 is empty"},
+                                      {in_buffer, "beyond"}}) {
         gltf_.root["images"] = {image};
         const Scene grey = load();
         EXPECT_EQ(side_of(grey).reflectance.texture, -1);

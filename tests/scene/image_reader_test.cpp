@@ -82,6 +82,14 @@ TEST_P(ImageReaderTest, BrokenFilesFailWhenTheyAreAskedFor) {
     expect_image(3);
 }
 
+TEST_P(ImageReaderTest, AnEmptyPathIsNoImageThatWasReadBefore) {
+    EXPECT_THROW(reader_.read({}), Error);
+    expect_image(0);
+    std::filesystem::remove(file(1));
+    EXPECT_THROW(reader_.read(sources_[1]), Error);
+    EXPECT_THROW(reader_.read({}), Error);
+}
+
 TEST_P(ImageReaderTest, ImagesInMemoryAreNotTakenForEachOther) {
     Image image = make_image(1, 1, {"R", "G", "B"});
     std::vector<std::string> files;

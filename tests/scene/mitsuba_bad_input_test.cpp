@@ -68,6 +68,21 @@ TEST_F(MitsubaBadInput, BadNumbersGetOneWarningAndAUsableMaterial) {
     }
 }
 
+TEST_F(MitsubaBadInput, EmptyNamesOfFilesAreErrors) {
+    const std::string empty = text("filename", "");
+    for (const std::string type : {"obj", "ply", "serialized"}) {
+        EXPECT_TRUE(mentions(file_error([&] { files_.load_xml(shape(type, empty)); }),
+                             "scene.xml:2: the 'filename' of shape '" + type + "' is empty"));
+    }
+    EXPECT_TRUE(mentions(file_error([&] { load("diffuse", bitmap("reflectance", "")); }),
+                         "scene.xml:2: the 'filename' of texture 'bitmap' is empty"));
+    EXPECT_TRUE(
+        mentions(file_error([&] { files_.load_xml("<emitter type='envmap'>" + empty + "</emitter>"); }),
+                 "scene.xml:2: the 'filename' of emitter 'envmap' is empty"));
+    EXPECT_TRUE(mentions(file_error([&] { load("diffuse", "<spectrum name='reflectance' filename=''/>"); }),
+                         "scene.xml:2: the 'filename' of this spectrum is empty"));
+}
+
 TEST_F(MitsubaBadInput, BlackIsNoBadAlbedo) {
     expect_near(load("plastic", rgb("diffuse_reflectance", "0")).reflectance.value, {0, 0, 0});
     EXPECT_EQ(notes_on_line_2(""), 0u);

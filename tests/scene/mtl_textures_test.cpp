@@ -205,5 +205,16 @@ TEST(MtlTexturesThatAreGone, NotesSayWhatBecomesOfThem) {
     EXPECT_TRUE(says("map_Ks", "replaced by mid-grey"));
 }
 
+TEST(MtlTexturesWithoutAName, AreNotedAndShowNothing) {
+    const SceneFiles files;
+    files.write("m.mtl", "newmtl m\nKd 0.2 0.2 0.2\nmap_Kd \nbump\nmap_Ka\nmap_d t.png\n");
+    const Scene scene = load_obj(files, "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    EXPECT_TRUE(has_note(scene, "m.mtl:3: statement 'map_Kd' without the name of a file"));
+    EXPECT_TRUE(has_note(scene, "m.mtl:4: statement 'bump' without the name of a file"));
+    EXPECT_FALSE(has_note(scene, "'map_Ka' without"));
+    EXPECT_FALSE(has_note(scene, "'map_d' without"));
+    expect_near(front_of(scene, 0).reflectance.value, {0.2f, 0.2f, 0.2f});
+}
+
 }  // namespace
 }  // namespace nearlight::core

@@ -21,7 +21,8 @@ std::string name_of(const GltfFile& file, const tinygltf::Image& image) {
            (image.bufferView >= 0 ? " in a buffer" : " in a data URI");
 }
 
-/// Where the image is read from. Calls fail() if it is in a buffer view that does not exist.
+/// Where the image is read from. Calls fail() if its URI is empty or of a kind that is not read, or if it is
+/// in a buffer view that does not exist.
 ImageSource source_of(const GltfFile& file, const tinygltf::Image& image) {
     if (image.uri.starts_with("data:")) {  // those of other kinds have been decoded by now
         file.fail("its data URI is not of a kind that is read: " +
@@ -29,6 +30,9 @@ ImageSource source_of(const GltfFile& file, const tinygltf::Image& image) {
     }
     if (!image.uri.empty()) {
         return {.file = file.path.parent_path() / decoded_uri(image.uri)};
+    }
+    if (image.bufferView < 0 && image.image.empty()) {
+        file.fail("the URI of image " + std::to_string(&image - file.model.images.data()) + " is empty");
     }
     return {.file = name_of(file, image),
             .bytes = image.bufferView >= 0 ? bytes_of(file, image.bufferView)

@@ -55,7 +55,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
         light.height = 1;
         light.radiance = {emitted_color(emitter, "radiance", textures)};
     } else {
-        const std::filesystem::path file = emitter.required_string("filename");
+        const std::filesystem::path file = emitter.required_file();
         try {
             std::size_t bad_pixels = 0;
             // Mitsuba 0.5 and 0.6 give a gamma, where 0 and −1 mean that of the file.

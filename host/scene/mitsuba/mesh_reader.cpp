@@ -82,7 +82,7 @@ PlyCode ply_color_code(const Object& shape) {
 }
 
 MeshSource source_of(const Object& shape) {
-    return {.file = shape.required_string("filename"),
+    return {.file = shape.required_file(),
             .type = shape.type,
             .index = shape_index(shape),
             .attribute = mesh_attribute_of(shape),
@@ -121,8 +121,9 @@ MeshFile read_source(const MeshSource& source) {
 /// Whether a file can be read ahead, and what is wrong with a shape can wait until it is its turn.
 bool can_be_ahead(const Object& shape) {
     const Property* const file = shape.find("filename");
-    return shape.type == "obj" && file != nullptr && std::holds_alternative<std::string>(file->value) &&
-           !shape.has("max_smooth_angle") && !shape.has("shape_index");
+    const auto* const name = file == nullptr ? nullptr : std::get_if<std::string>(&file->value);
+    return shape.type == "obj" && name != nullptr && !name->empty() && !shape.has("max_smooth_angle") &&
+           !shape.has("shape_index");
 }
 
 }  // namespace

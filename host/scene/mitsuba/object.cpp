@@ -77,6 +77,14 @@ std::string Object::required_string(const std::string& name) const {
     return string(name, "");
 }
 
+std::filesystem::path Object::required_file() const {
+    const std::filesystem::path file = required_string("filename");
+    if (file.empty()) {
+        fail(find("filename")->where, "the 'filename' of " + tag + " '" + type + "' is empty");
+    }
+    return file;
+}
+
 Triple Object::triple(const std::string& name, const Triple& fallback) const {
     const Property* property = find(name);
     return property == nullptr ? fallback : get<Triple>(*property, name, "point or vector");

@@ -64,7 +64,10 @@ struct Object {
     [[nodiscard]] double number(const std::string& name, double fallback) const;
     [[nodiscard]] bool boolean(const std::string& name, bool fallback) const;
     [[nodiscard]] std::string string(const std::string& name, const std::string& fallback) const;
+    /// The property as a string. Calls fail() if there is none.
     [[nodiscard]] std::string required_string(const std::string& name) const;
+    /// The path that the property "filename" has. Calls fail() if there is none, or if the name is empty.
+    [[nodiscard]] std::filesystem::path required_file() const;
     [[nodiscard]] Triple triple(const std::string& name, const Triple& fallback) const;
     [[nodiscard]] Mat4 transform(const std::string& name) const;
     /// The property as a colour, where a number is a grey; empty if there is none.

@@ -264,7 +264,7 @@ Parameter TextureMaker::make_bitmap(const Object& texture, Purpose purpose) {
     rule.is_encoded = true;
     rule.is_number = purpose == Purpose::number || purpose == Purpose::height;
     rule.is_signed = purpose == Purpose::height || purpose == Purpose::normals;
-    const std::filesystem::path file = texture.required_string("filename");
+    const std::filesystem::path file = texture.required_file();
     made.image = loader_.load({.file = file}, rule, *texture.where.file, texture.where.line);
     if (made.image < 0) {
         return parameter_of(purpose == Purpose::normals ? kFlat : kMissing);

@@ -212,6 +212,9 @@ class Reader {
 
     Color read_spectrum_value(const Element& element) {
         if (element.has("filename")) {
+            if (element.text("filename").empty()) {
+                fail(element.where, "the 'filename' of this spectrum is empty");
+            }
             return read_spectrum(files_.find(element.text("filename"), element.where), element.where);
         }
         const std::string text = element.required("value");
@@ -238,10 +241,11 @@ class Reader {
     }
 
     /// Replaces the name of the object's file by its path. A <path> counts for the whole scene, wherever it
-    /// stands.
+    /// stands. An empty name stays, and is an error only if something asks for the file.
     void find_file(Object& object) const {
         if (const auto found = object.properties.find("filename"); found != object.properties.end()) {
-            if (auto* name = std::get_if<std::string>(&found->second.value)) {
+            if (auto* name = std::get_if<std::string>(&found->second.value);
+                name != nullptr && !name->empty()) {
                 *name = files_.find(*name, found->second.where).string();
             }
         }

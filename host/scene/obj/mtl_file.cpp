@@ -29,6 +29,12 @@ constexpr std::string_view kStatements[] = {
 constexpr std::string_view kNumberStatements[] = {"Kd", "Ks", "Ke", "Kt",    "Tf", "Tr",
                                                   "d",  "Ns", "Ni", "illum", "Pr", "Pm"};
 
+/// Whether the statement says something of a surface, and ends with the name of an image.
+bool names_image(std::string_view statement) {
+    const bool is_map = statement.starts_with("map_") && statement != "map_aat" && statement != "map_Ka";
+    return is_map || statement == "bump" || statement == "norm" || statement == "disp";
+}
+
 /// Spells the words that lines begin with as tinyobjloader knows them, because programs differ in the case of
 /// letters, and puts a blank behind them, where some have a tab.
 void tidy_statements(std::string& text) {
@@ -267,6 +273,10 @@ void note_unknown_statements(const MaterialLibrary& library, TextLine begin, Not
             !is_number(std::string(first_word(value)))) {
             notes.approximation(library.file, begin.number + number - 1,
                                 "statement '" + std::string(word) + "' without a number, which counts as 0");
+        }
+        if (names_image(word) && value.empty()) {
+            notes.remark(library.file, begin.number + number - 1,
+                         "statement '" + std::string(word) + "' without the name of a file");
         }
         return true;
     });

@@ -46,8 +46,8 @@ const MaterialLibrary* find_library(const std::vector<MaterialLibrary>& librarie
 std::string known_name(const std::vector<MaterialLibrary>& libraries, const std::string& name);
 
 /// Notes each kind of statement that the entry at `begin` has and that is left out although it may change the
-/// look, or that lacks its number. What has a note of its own (displacement, sheen, clear coat, anisotropy,
-/// map_Ns) is not among them.
+/// look, or that lacks its number or the name of its image. What has a note of its own (displacement, sheen,
+/// clear coat, anisotropy, map_Ns) is not among them.
 void note_unknown_statements(const MaterialLibrary& library, TextLine begin, NoteSink& notes);
 
 }  // namespace nearlight::core
