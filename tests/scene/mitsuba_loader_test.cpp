@@ -233,6 +233,9 @@ TEST(MitsubaEmitter, AnAreaLightMayStandBesideItsShape) {
         EXPECT_FALSE(has_note(scene, "area light"));
     }
     EXPECT_TRUE(has_note(files.load_xml(shape("rectangle", "") + light), "no shape has this area light"));
+    const Scene plain =
+        files.load_xml("<emitter type='area' id='lamp'/>" + shape("rectangle", "<ref id='lamp'/>"));
+    EXPECT_FALSE(has_note(plain, "area light")) << "a lamp of the usual radiance says nothing of itself";
 }
 
 TEST(MitsubaEmitter, AnAreaLightWithoutARadianceHasOne) {

@@ -85,7 +85,7 @@ EnvironmentLight make_environment(const Object& emitter, TextureMaker& textures,
 void add_emitter(const Object& emitter, Scene& scene, TextureMaker& textures, NoteSink& notes) {
     // Shapes refer to an area light by its id, and are made before.
     if (emitter.type == "area") {
-        if (!emitter.is_used()) {
+        if (!emitter.is_on_shape) {
             notes.remark(*emitter.where.file, emitter.where.line, "no shape has this area light");
         }
         return;

@@ -143,11 +143,6 @@ std::vector<const Object*> Object::nested(const std::string& wanted) const {
     return found;
 }
 
-bool Object::is_used() const {
-    return std::ranges::any_of(properties, [](const auto& property) { return property.second.used; }) ||
-           std::ranges::any_of(children, &Child::used);
-}
-
 void Object::report_unused(NoteSink& notes) const {
     for (const auto& [name, property] : properties) {
         if (!property.used) {

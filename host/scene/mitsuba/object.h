@@ -58,6 +58,7 @@ struct Object {
     bool is_old = false;                         ///< the file is one of Mitsuba 0.5 or 0.6
     std::map<std::string, Property> properties;  ///< "filename" is the path at which the file was found
     std::vector<Child> children;
+    mutable bool is_on_shape = false;  ///< a shape of the picture has this emitter
 
     /// The property as a number, or `fallback` if there is none. This and the next functions call fail() if
     /// it has another type.
@@ -87,9 +88,6 @@ struct Object {
 
     /// Marks all nested objects with the tag as known.
     void ignore_nested(const std::string& wanted) const { static_cast<void>(nested(wanted)); }
-
-    /// Whether anything has asked for one of its properties or nested objects.
-    [[nodiscard]] bool is_used() const;
 
     /// Adds a note for each property or nested object that nothing has asked for.
     void report_unused(NoteSink& notes) const;

@@ -309,6 +309,7 @@ Parameter ShapeMaker::emission(const Object& shape) {
     if (emitter.type != "area") {
         fail_unknown_type(emitter, "area (within a shape)");
     }
+    emitter.is_on_shape = true;
     emitter.ignore({"sampling_weight"});
     const Parameter radiance = textures_.emission(emitter, "radiance", {1, 1, 1});
     if (radiance.value.x < 0.0f || radiance.value.y < 0.0f || radiance.value.z < 0.0f) {
