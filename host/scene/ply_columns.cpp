@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/ply_columns.h"
 
+#include <optional>
 #include <utility>
 
 #include "host/image/color.h"
@@ -8,17 +9,46 @@
 namespace nearlight::core {
 namespace {
 
-// The slot of a property; −1 if it is none of those of every vertex.
+// The slot of a property; −1 if it is neither of a position nor of a normal.
 int vertex_slot(std::string_view name) {
-    constexpr std::pair<std::string_view, int> kSlots[] = {
-        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
-        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
+    constexpr std::pair<std::string_view, int> kSlots[] = {{"x", 0},  {"y", 1},  {"z", 2},
+                                                           {"nx", 3}, {"ny", 4}, {"nz", 5}};
     for (const auto& [known, slot] : kSlots) {
         if (known == name) {
             return slot;
         }
     }
     return -1;
+}
+
+constexpr int kFirstPlyUv = 6;
+/// What texture coordinates may be called. The first pair of which a table has both counts, as in Mitsuba 3,
+/// so that a number that happens to be called s or t is not taken for one.
+constexpr std::pair<std::string_view, std::string_view> kUvNames[] = {
+    {"u", "v"}, {"texture_u", "texture_v"}, {"s", "t"}};
+
+/// The column of a number with this name that has no slot yet.
+std::optional<std::size_t> free_column(const PlyElement& element, const PlyColumns& columns,
+                                       std::string_view name) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (columns.slots[i] < 0 && !property.is_list && property.name == name) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+void add_uv_slots(const PlyElement& element, PlyColumns& columns) {
+    for (const auto& [u_name, v_name] : kUvNames) {
+        const std::optional<std::size_t> u = free_column(element, columns, u_name);
+        const std::optional<std::size_t> v = free_column(element, columns, v_name);
+        if (u && v) {
+            columns.slots[*u] = kFirstPlyUv;
+            columns.slots[*v] = kFirstPlyUv + 1;
+            return;
+        }
+    }
 }
 
 /// The place of a name among red, green and blue; −1 if it is none of them.
@@ -85,6 +115,9 @@ PlyColumns vertex_columns(const PlyElement& element, std::string_view attribute)
         const PlyProperty& property = element.properties[i];
         int& slot = columns.slots[i];
         slot = slot < 0 && !property.is_list ? vertex_slot(property.name) : slot;
+    }
+    add_uv_slots(element, columns);
+    for (const int slot : columns.slots) {
         if (slot >= 0) {
             columns.present[static_cast<std::size_t>(slot)] = true;
         }

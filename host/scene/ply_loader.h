@@ -18,13 +18,13 @@ struct PlyAttribute {
     PlyCode code = PlyCode::as_it_stands;
 };
 
-/// Reads positions, normals (nx, ny, nz), texture coordinates (u, v or s, t), faces, which may be polygons
-/// of any shape, and strips of triangles (tristrips), in any order; other elements and properties are
-/// skipped. Mesh::uvs are as in the file. The attribute says which colours or numbers become Mesh::colors, if
-/// it is vertex_NAME, or Mesh::face_colors, if it is face_NAME: as Mitsuba writes them, one or three
-/// properties that are called NAME_ and one more character (x y z, r g b, 0 1 2 or 1 2 3); for the name color
-/// also r, g, b or red, green, blue. A single number becomes a grey. Throws Error(ErrorKind::file) if the
-/// file is missing, truncated, not understood or without a triangle.
+/// Reads positions, normals (nx, ny, nz), texture coordinates (u and v, or else texture_u and texture_v, or
+/// else s and t), faces, which may be polygons of any shape, and strips of triangles (tristrips), in any
+/// order; other elements and properties are skipped. Mesh::uvs are as in the file. The attribute says which
+/// colours or numbers become Mesh::colors, if it is vertex_NAME, or Mesh::face_colors, if it is face_NAME: as
+/// Mitsuba writes them, one or three properties that are called NAME_ and one more character (x y z, r g b, 0
+/// 1 2 or 1 2 3); for the name color also r, g, b or red, green, blue. A single number becomes a grey. Throws
+/// Error(ErrorKind::file) if the file is missing, truncated, not understood or without a triangle.
 Mesh read_ply(const std::filesystem::path& file, const PlyAttribute& attribute = {});
 
 /// What a file says that is a scene by itself.

@@ -52,6 +52,30 @@ void expect_square(const Mesh& mesh) {
     EXPECT_EQ(mesh.uvs[1], (std::array<float, 2>{1, 0}));
 }
 
+TEST(Ply, TextureCoordinatesAreTheFirstWholePair) {
+    const SceneFiles files;
+    const auto uv_of = [&](const std::vector<std::string>& names) {
+        std::string text =
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+        std::string numbers;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            text += "property float " + names[i] + "\n";
+            numbers += " " + std::to_string(i + 1);
+        }
+        text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        for (const char* position : {"0 0 0", "1 0 0", "0 1 0"}) {
+            text += position + numbers + "\n";
+        }
+        return read_ply(files.write("uv.ply", text + "3 0 1 2\n")).uvs;
+    };
+    using Uv = std::array<float, 2>;
+    EXPECT_EQ(uv_of({"u", "v", "s"}).at(0), (Uv{1, 2})) << "s says something else";
+    EXPECT_EQ(uv_of({"t", "s", "v", "u"}).at(0), (Uv{4, 3}));
+    EXPECT_EQ(uv_of({"s", "t", "texture_u", "texture_v"}).at(0), (Uv{3, 4}));
+    EXPECT_EQ(uv_of({"s", "t", "u", "texture_v"}).at(0), (Uv{1, 2})) << "half a pair is none";
+    EXPECT_TRUE(uv_of({"u", "t"}).empty());
+}
+
 TEST(Ply, ReadsAsciiAndBothByteOrders) {
     const SceneFiles files;
     expect_square(
