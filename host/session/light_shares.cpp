@@ -8,6 +8,7 @@
 
 #include "host/base/cosine_direction.h"
 #include "host/base/random.h"
+#include "host/base/seen_normal.h"
 #include "host/scene/emitters.h"
 #include "host/scene/environment_map.h"
 #include "host/scene/ray_epsilon.h"
@@ -73,7 +74,8 @@ class ShareMaker {
         const float square = dot(way, way);
         const float distance = std::sqrt(square);
         const float cosines = dot(point_.normal, way) * -dot(vpl.normal, way) / square;
-        if (!(dot(point_.normal, way) > 0.0f) || !(cosines > 0.0f) || !(distance > 0.0f)) {
+        const bool is_seen = dot(seen_normal(vpl), way) < 0.0f;
+        if (!(dot(point_.normal, way) > 0.0f) || !(cosines > 0.0f) || !(distance > 0.0f) || !is_seen) {
             return;
         }
         const float clamped_square = std::max(square, point_.clamp_radius * point_.clamp_radius);
