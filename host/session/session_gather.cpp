@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a session makes a picture on its own and on remote devices.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -51,14 +52,21 @@ PixelWindow with_border(const PixelWindow& window, const Camera& camera) {
             std::min(window.y + window.height + reach, camera.height) - y};
 }
 
-/// Replaces the colours of all layers of light by their luminance.
+/// Replaces the colours of all layers of light by their luminance, and their variances s² by its variance.
+/// With the weights w of the luminance, this lies between Σ w²s², where the noise of the channels is
+/// independent, and (Σ ws)², where the channels rise and fall together. The latter is taken: it is an upper
+/// bound, and most noise of VPLs and of paths is in how much light arrives, which the channels share.
 void make_monochrome(std::span<float> rows) {
     for (std::size_t pixel = 0; pixel < rows.size(); pixel += NEARLIGHT_LAYER_CHANNELS) {
-        for (const std::size_t layer : {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT,
-                                        NEARLIGHT_LAYER_INDIRECT, NEARLIGHT_LAYER_VARIANCE}) {
+        for (const std::size_t layer :
+             {NEARLIGHT_LAYER_BEAUTY, NEARLIGHT_LAYER_DIRECT, NEARLIGHT_LAYER_INDIRECT}) {
             float* const rgb = rows.data() + pixel + layer;
             std::fill_n(rgb, NEARLIGHT_CHANNELS_RGB, luminance({rgb[0], rgb[1], rgb[2]}));
         }
+        float* const variance = rows.data() + pixel + NEARLIGHT_LAYER_VARIANCE;
+        const float noise =
+            luminance({std::sqrt(variance[0]), std::sqrt(variance[1]), std::sqrt(variance[2])});
+        std::fill_n(variance, NEARLIGHT_CHANNELS_RGB, noise * noise);
     }
 }
 

@@ -226,10 +226,30 @@ TEST_F(SensorsTest, MonochromePictureIsTheLuminanceOfTheOther) {
             }
         }
     };
+    // The noise of the luminance is that of channels whose noises rise and fall together.
+    const auto compare_noise = [](const Image& color, const Image& luminances) {
+        const auto noise = [&](const char* channel, int x, int y) {
+            return std::sqrt(value(color, channel, x, y));
+        };
+        float sum = 0;
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 16; ++x) {
+                const float expected = luminance(
+                    {noise("variance.R", x, y), noise("variance.G", x, y), noise("variance.B", x, y)});
+                for (const char* channel : {"variance.R", "variance.G", "variance.B"}) {
+                    EXPECT_NEAR(std::sqrt(value(luminances, channel, x, y)), expected, 1e-4f * expected);
+                }
+                sum += expected;
+            }
+        }
+        EXPECT_GT(sum, 0.0f);
+    };
     compare(trace_paths(scene, {.spp = 4, .max_depth = 2}), trace_paths(gray, {.spp = 4, .max_depth = 2}));
     on_each_device([&](Device& device) {
-        compare(test::render_image(device, scene, test::few_vpls()).image,
-                test::render_image(device, gray, test::few_vpls()).image);
+        const Image color = test::render_image(device, scene, test::few_vpls()).image;
+        const Image luminances = test::render_image(device, gray, test::few_vpls()).image;
+        compare(color, luminances);
+        compare_noise(color, luminances);
     });
 }
 
