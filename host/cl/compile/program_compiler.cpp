@@ -2,6 +2,7 @@
 #include "host/cl/compile/program_compiler.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace nearlight::core {
 namespace {
@@ -28,7 +29,7 @@ std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
         return build_program(request, contexts, worker);
     });
     std::shared_future<cl::Program> result = job.get_future();
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     // The longest source comes first, so that the last programs are short and no worker is left alone with
     // much work.
     const auto place =
@@ -36,9 +37,18 @@ std::shared_future<cl::Program> ProgramCompiler::start(ProgramRequest request) {
     jobs_.insert(place, {length, std::move(job)});
     if (const std::size_t index = threads_.size(); index < std::max(kMinThreads, workers_.size())) {
         CompileWorker* const worker = index < workers_.size() ? workers_[index].get() : nullptr;
-        threads_.emplace_back([this, worker] { work(worker); });
+        try {
+            threads_.emplace_back([this, worker] { work(worker); });
+        } catch (const std::system_error&) {
+            // The system gives no more threads; those that there are take the program.
+        }
     }
-    changed_.notify_one();
+    if (threads_.empty()) {
+        CompileContexts contexts;
+        run_first(lock, contexts, nullptr);
+    } else {
+        changed_.notify_one();
+    }
     return result;
 }
 
@@ -63,18 +73,24 @@ void ProgramCompiler::work(CompileWorker* worker) {
         if (ending_) {
             return;
         }
-        Job job = std::move(jobs_.front().job);
-        jobs_.pop_front();
-        if (running_++ == 0) {
-            since_.lap();
-        }
-        lock.unlock();
-        job(contexts, worker);
-        job = {};
-        lock.lock();
-        if (--running_ == 0) {
-            busy_seconds_ += since_.lap();
-        }
+        run_first(lock, contexts, worker);
+    }
+}
+
+/// Runs the first job, for which it gives the lock up for a while.
+void ProgramCompiler::run_first(std::unique_lock<std::mutex>& lock, CompileContexts& contexts,
+                                CompileWorker* worker) {
+    Job job = std::move(jobs_.front().job);
+    jobs_.pop_front();
+    if (running_++ == 0) {
+        since_.lap();
+    }
+    lock.unlock();
+    job(contexts, worker);
+    job = {};
+    lock.lock();
+    if (--running_ == 0) {
+        busy_seconds_ += since_.lap();
     }
 }
 

@@ -29,7 +29,8 @@ class ProgramCompiler {
     ~ProgramCompiler();
 
     /// Queues a program for build_program(), whose errors the future rethrows. Programs with the longest
-    /// source are compiled first, as many at a time as there are workers, but at least two.
+    /// source are compiled first, as many at a time as there are workers, but at least two. If the system
+    /// gives no thread at all, the caller compiles the program before this returns.
     std::shared_future<cl::Program> start(ProgramRequest request);
 
     /// Whether a program is being compiled or loaded, or waits for that.
@@ -45,6 +46,7 @@ class ProgramCompiler {
         Job job;
     };
     void work(CompileWorker* worker);
+    void run_first(std::unique_lock<std::mutex>& lock, CompileContexts& contexts, CompileWorker* worker);
 
     CompileWorkers workers_;
     std::mutex mutex_;
