@@ -2,6 +2,7 @@
 // How a session makes a picture on its own and on remote devices.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -85,6 +86,23 @@ std::vector<double> work_of(DevicePool& pool, const PictureTask& picture, const 
     });
 }
 
+/// Deletes a picture, and has remote devices end work on it if they were shown it.
+struct PictureEnd {
+    std::function<void(PictureNumber)> end;
+
+    void operator()(PlannedPicture* planned) const noexcept {
+        try {
+            if (planned->shown) {
+                end(*planned->shown);
+            }
+        } catch (...) {
+            // Memory for the message is lacking. Who does not hear of the end only keeps the picture for
+            // longer.
+        }
+        delete planned;
+    }
+};
+
 }  // namespace
 
 std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vpls,
@@ -122,12 +140,12 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
     if (remote_.devices.empty()) {
         return std::make_shared<PlannedPicture>(PlannedPicture{.task = picture, .window = window});
     }
-    const PictureNumber number = remote_.show(picture, vpls.vpls.on_host());
-    return {new PlannedPicture{.task = picture, .window = window, .shown = number},
-            [number, end = remote_.end](PlannedPicture* planned) {
-                end(number);
-                delete planned;
-            }};
+    // It is made before it is shown, so that nothing that is shown lacks an end.
+    PictureEnd end{remote_.end};
+    const std::shared_ptr<PlannedPicture> planned(new PlannedPicture{.task = picture, .window = window},
+                                                  std::move(end));
+    planned->shown = remote_.show(picture, vpls.vpls.on_host());
+    return planned;
 }
 
 GatherOutcome Session::gather(const View& view, const VplSet& vpls, const GatherSettings& settings, uint seed,

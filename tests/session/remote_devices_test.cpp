@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <set>
 #include <string>
 #include <tuple>
@@ -49,6 +50,8 @@ class OtherSession {
     uint good_bands = 1000;
     /// No band is made before the picture after it was shown too, up to this picture.
     PictureNumber awaited = 0;
+    /// Memory for the message that a picture has ended is lacking.
+    bool fails_to_end = false;
 
     [[nodiscard]] RemoteDevices devices(std::size_t count) {
         RemoteDevices remote{
@@ -62,7 +65,13 @@ class OtherSession {
                 },
             .fetch = [this](PictureNumber picture, std::size_t device, uint band,
                             const WorkProgress& progress) { return fetch(picture, device, band, progress); },
-            .end = [this](PictureNumber picture) { EXPECT_EQ(pictures_.erase(picture), 1u); }};
+            .end =
+                [this](PictureNumber picture) {
+                    EXPECT_EQ(pictures_.erase(picture), 1u);
+                    if (fails_to_end) {
+                        throw std::bad_alloc();
+                    }
+                }};
         for (std::size_t i = 0; i < count; ++i) {
             remote.devices.push_back(session_.own_devices().front());
             remote.devices.back().number = i;
@@ -193,6 +202,14 @@ TEST_F(RemoteDevicesTest, AreLeftOutWhenTheyFail) {
         EXPECT_LE(picture.report.shares.at(1).bands, good_bands);
         EXPECT_FALSE(picture.report.shares.at(2).failed);
     }
+}
+
+TEST_F(RemoteDevicesTest, NeedNotHearOfTheEnd) {
+    HelpedSession sessions(open(), open(), scene_, 1);
+    auto& [own, other, helper, alone, helped] = sessions;
+    helper.fails_to_end = true;
+    expect_equal(test::render_image(alone, test::few_vpls()), test::render_image(helped, test::few_vpls()));
+    EXPECT_EQ(helper.open_pictures(), 0u);
 }
 
 TEST_F(RemoteDevicesTest, StopWhenTheCallerWantsNoMore) {
