@@ -2,9 +2,9 @@
 #include "host/base/files.h"
 
 #include <array>
-#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -108,8 +108,10 @@ std::string read_bytes(const std::filesystem::path& file) {
 
 std::string exact_text(double value) {
     std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%a", value);
-    return text.data();
+    char* const end =
+        std::to_chars(text.data(), text.data() + text.size(), std::abs(value), std::chars_format::hex).ptr;
+    const std::string sign = std::signbit(value) ? "-" : "";
+    return sign + (std::isfinite(value) ? "0x" : "") + std::string(text.data(), end);
 }
 
 }  // namespace nearlight::core

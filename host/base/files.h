@@ -26,7 +26,7 @@ std::string reason_not_to_read(const std::filesystem::path& file);
 /// Reads the whole file. Throws Error(ErrorKind::file).
 std::string read_bytes(const std::filesystem::path& file);
 
-/// The value in hexadecimal, with all its bits, for use in keys.
+/// The value in hexadecimal, with all its bits, as printf's %a writes it without a locale; for use in keys.
 std::string exact_text(double value);
 
 }  // namespace nearlight::core

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -11,9 +10,10 @@
 
 namespace nearlight::core {
 
-/// The letter as a small one, if it is an ASCII letter.
-inline char lower_case(char letter) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+/// The letter as a small one, if it is an ASCII letter. Unlike std::tolower(), this does not follow the
+/// locale, which programs that embed the library may have set.
+constexpr char lower_case(char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 inline std::string lower_case(std::string text) {
     std::ranges::transform(text, text.begin(), [](char letter) { return lower_case(letter); });

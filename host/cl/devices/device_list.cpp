@@ -2,6 +2,7 @@
 #include "host/cl/devices/device_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <iterator>
 #include <mutex>
