@@ -9,7 +9,8 @@
 // and branch 1 S or the reflection, each with its full weight, which keeps noise out of glossy floors. At
 // later surfaces the way is chosen by chance. Branch 1 of a sample that never divides is absent. A receiver
 // of little weight is absent too, and so is one behind mirrors or glass to which a depth limit leaves few
-// edges: their light is traced at once and added up in CameraVertex. One work-item for each sample, with all
+// edges: their light is traced at once and added up in CameraVertex. The latter shows in the layers of
+// surfaces all the same, whose normal its packet has in mesh_normal. One work-item for each sample, with all
 // its branches; any work-group size. Random numbers depend on pixel and sample only.
 
 #include "lib/camera_path.cl"
@@ -107,6 +108,14 @@ static inline void set_receiver(const global CloseRange* close_range, const Came
     receiver->vertex.flags |= in_close_range(close_range, hit->position) ? NEARLIGHT_VERTEX_CLOSE : 0;
 }
 
+/// Makes a receiver absent, whose light has been traced. Its normal, which it shows all the same, takes the
+/// place of the mesh's; one of little weight has none.
+static inline void leave_out(CameraReceiver* receiver) {
+    const bool is_set = dot(receiver->normal, receiver->normal) > 0.0f;
+    receiver->mesh_normal = is_set ? pack_mesh_normal(receiver->normal) : 0;
+    receiver->normal = (float3)(0.0f);
+}
+
 /// What the surface at a step of a sample's path may ask of lights. A surface at which paths must end asks
 /// none, but shows in the layers of surfaces.
 static inline LightQuota quota_at(const CameraLimits* limits, uint step, uint sample) {
@@ -200,7 +209,7 @@ OUTLINED CameraReceiver follow_path(const SceneView* scene, const global Camera*
             if (is_weak || has_few_edges(limits, step)) {
                 trace_light(scene, limits, path, &hit, &surface, albedo, limits->max_edges - step - 1,
                             &receiver.vertex);
-                receiver.normal = (float3)(0.0f);
+                leave_out(&receiver);
             }
         }
         if (way != WAY_ON || !goes_on(path, step, numbers.end)) {

@@ -10,6 +10,7 @@
 #include "lib/film_light.cl"
 #include "lib/halves.cl"
 #include "lib/math.cl"
+#include "lib/vpl.cl"
 #include "shared/film_layers.h"
 #include "shared/packet_order.h"
 
@@ -48,11 +49,17 @@ static inline void add_light(global float* pixel, const CameraVertex* vertex, co
     add_to_sum(pixel + NEARLIGHT_SUM_ALBEDO, reflectance_of(vertex));
 }
 
+/// The normal that a sample shows. A receiver that is absent because its light was traced has it where the
+/// mesh's stands (camera_pass.cl).
+static inline float3 shown_normal(const global ReceiverPacket* receiver, uint lane) {
+    const float3 normal = receiver_normal(receiver, lane);
+    return dot(normal, normal) > 0.0f ? normal : receiver_mesh_normal(receiver, lane);
+}
+
 /// Adds what the first branch of a sample saw.
 static inline void add_surface(global float* pixel, const CameraVertex* vertex,
                                const global ReceiverPacket* receiver, uint lane) {
-    add_to_sum(pixel + NEARLIGHT_SUM_NORMAL,
-               (float3)(receiver->nx[lane], receiver->ny[lane], receiver->nz[lane]));
+    add_to_sum(pixel + NEARLIGHT_SUM_NORMAL, shown_normal(receiver, lane));
     if (is_better_depth(pixel[NEARLIGHT_SUM_DEPTH], vertex)) {
         store_channels(pixel + NEARLIGHT_SUM_POSITION,
                        (float3)(receiver->px[lane], receiver->py[lane], receiver->pz[lane]));

@@ -6,7 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "host/base/packed_direction.h"
 #include "host/base/random.h"
+#include "host/base/receivers.h"
 
 namespace nearlight::core {
 namespace {
@@ -31,6 +33,28 @@ double channel(Vec3 v, std::size_t c) {
     return c == 0 ? v.x : (c == 1 ? v.y : v.z);
 }
 
+/// The normal that a sample shows, also of a receiver that is absent only because its light was traced.
+Vec3 shown_normal(const ReceiverPacket& receiver, std::size_t lane) {
+    const Vec3 normal = receiver_at(receiver, lane).normal;
+    const uint packed = receiver.mesh_normal[lane];
+    return is_zero(normal) && packed != 0 ? unpack_direction(packed) : normal;
+}
+
+/// Makes about a third of a packet's receivers absent, of which some show a normal.
+void leave_out_some(ReceiverPacket& receiver, Pcg32& random) {
+    std::ranges::fill(receiver.mesh_normal, 0u);
+    for (std::size_t lane = 0; lane < NEARLIGHT_PACKET_SIZE; ++lane) {
+        const uint choice = random.next() % 6;
+        const float x = random.uniform() + 0.1f;
+        const float y = random.uniform() + 0.1f;
+        const uint packed = pack_direction(normalize(Vec3{x, y, random.uniform() + 0.1f}));
+        if (choice < 2) {
+            receiver.nx[lane] = receiver.ny[lane] = receiver.nz[lane] = 0.0f;
+        }
+        receiver.mesh_normal[lane] = choice % 2 == 0 ? packed : 0;
+    }
+}
+
 /// The variance of the mean of `samples`, whose first half (without the middle one) and second half add up to
 /// the given numbers.
 double variance_of(double first, double second, uint samples) {
@@ -53,6 +77,7 @@ std::pair<std::size_t, std::size_t> place_of(const FilmLayout& layout, uint x, u
 
 FilmSamples random_film_samples(const FilmLayout& layout) {
     Pcg32 random(1);
+    Pcg32 normals(2);
     const auto color = [&] {
         const float r = random.uniform();
         const float g = random.uniform();
@@ -65,6 +90,7 @@ FilmSamples random_film_samples(const FilmLayout& layout) {
         std::generate_n(receiver.px, offsetof(ReceiverPacket, surface) / sizeof(float),
                         [&] { return random.uniform() + 0.1f; });
         std::ranges::fill(receiver.surface, 0u);
+        leave_out_some(receiver, normals);
         samples.receivers.push_back(receiver);
         for (std::vector<IrradiancePacket>* light : {&samples.direct, &samples.gathered, &samples.indirect}) {
             std::generate_n(light->emplace_back().r, sizeof(IrradiancePacket) / sizeof(float),
@@ -129,7 +155,6 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
         const ReceiverPacket& receiver = samples.receivers[packet];
         const BranchLight light = branch_light(samples, packet, lane);
         for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t at = c * NEARLIGHT_PACKET_SIZE + lane;
             const double direct = double{vertex.filter_weight} * light.direct[c];
             const double indirect = double{vertex.filter_weight} * light.indirect[c];
             out[NEARLIGHT_LAYER_DIRECT + c] += direct / layout.samples;
@@ -140,7 +165,7 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
             halves[is_in_second ? 1 : 0][c] += direct + indirect;
             out[NEARLIGHT_LAYER_ALBEDO + c] +=
                 channel(vertex.throughput, c) * channel(vertex.albedo, c) / layout.samples;
-            normal[c] += s % layout.branches == 0 ? (&receiver.nx[0])[at] : 0.0f;
+            normal[c] += s % layout.branches == 0 ? channel(shown_normal(receiver, lane), c) : 0.0;
         }
         if (s % layout.branches == 0) {
             out[NEARLIGHT_LAYER_CLOSE_RANGE] +=
@@ -153,7 +178,7 @@ std::vector<double> expected_layers(const FilmSamples& samples, const FilmLayout
     }
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (std::size_t c = 0; c < 3; ++c) {
-        out[NEARLIGHT_LAYER_NORMAL + c] = normal[c] / length;
+        out[NEARLIGHT_LAYER_NORMAL + c] = length > 0.0 ? normal[c] / length : 0.0;
     }
     if (const auto shown = shown_sample(samples, layout, x, y)) {
         const auto [packet, lane] = *shown;

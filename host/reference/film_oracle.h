@@ -50,7 +50,7 @@ struct BranchLight {
 };
 BranchLight branch_light(const FilmSamples& samples, std::size_t packet, std::size_t lane);
 
-/// Samples with random numbers in every field. Some camera rays meet nothing.
+/// Samples with random numbers in every field. Some camera rays meet nothing, and some receivers are absent.
 FilmSamples random_film_samples(const FilmLayout& layout);
 
 /// The values that the layers of a pixel must have, in the order of layer_channels().

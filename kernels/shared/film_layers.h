@@ -25,7 +25,8 @@
 //   storage    says what numbers EXR files have unless --exr-precision asks for more: `half`, which are
 //              16-bit floats of 11 significant bits, or `full`, which are 32-bit floats.
 // Albedo, N, P and closerange are those of the first surface with a Lambertian part, behind mirrors and glass
-// too, and 0 where a sample has no receiver; depth is that of the first surface of all.
+// too, and 0 where a sample meets none or one of too little weight for a receiver (CameraLimits); depth is
+// that of the first surface of all.
 // The order of the rows is the order of the channels in a picture and in its files.
 #ifndef NEARLIGHT_SHARED_FILM_LAYERS_H
 #define NEARLIGHT_SHARED_FILM_LAYERS_H

@@ -191,7 +191,8 @@ typedef struct ReceiverPacket {
     float nx[NEARLIGHT_PACKET_SIZE], ny[NEARLIGHT_PACKET_SIZE], nz[NEARLIGHT_PACKET_SIZE];
     uint surface[NEARLIGHT_PACKET_SIZE];
     uint mesh_normal[NEARLIGHT_PACKET_SIZE];  // pack_direction() of the mesh's normal where a map tilts the
-                                              // receiver's own; 0: no map
+                                              // receiver's own; 0: no map. Of an absent receiver that shows
+                                              // in the layers of surfaces, its own normal
     uint sequence[NEARLIGHT_PACKET_SIZE];     // key of the random numbers that the receiver shares with
                                               // others of its pixel; 0: it has numbers of its own
 } ReceiverPacket;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What camera paths count: the edges up to a light, the surfaces before a receiver, and samples.
+#include "host/base/packed_direction.h"
 #include "host/base/receivers.h"
 #include "host/stages/camera_pass.h"
 #include "tests/support/camera_shooting.h"
@@ -96,6 +97,9 @@ TEST_F(CameraLimitsTest, ReceiversBehindMirrorsWithFewEdgesLeftAreTraced) {
                 double traced = 0;
                 for (std::size_t i = 0; i < NEARLIGHT_PACKET_SIZE; ++i) {
                     EXPECT_EQ(is_zero(receiver_at(found.receivers, i).normal), is_traced) << max_depth;
+                    const uint packed = found.receivers.front().mesh_normal[i];
+                    EXPECT_EQ(packed != 0, is_traced) << max_depth;
+                    EXPECT_TRUE(!is_traced || length(unpack_direction(packed) - Vec3{0, 0, 1}) < 1e-4f);
                     EXPECT_GT(found.vertices[i].throughput.y * found.vertices[i].albedo.y, 0.0f) << max_depth;
                     traced += found.vertices[i].traced_direct.y;
                 }
