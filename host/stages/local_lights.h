@@ -25,7 +25,7 @@ struct LocalLightPlan {
     uint rays_per_receiver = 1;  ///< short rays that find local lights
     uint connections = 1;        ///< from each local light to VPLs, chosen with equal probability
     uint direct_samples = 1;     ///< towards area and environment lights, from each local light
-    uint bounce_count = 1;       ///< maximum number of steps that light takes to a local light
+    uint bounce_count = 1;       ///< maximum number of edges of a path from an emitter to a local light
     uint seed = 0;
 };
 

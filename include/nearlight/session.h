@@ -138,7 +138,7 @@ class NEARLIGHT_API Session {
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    /// Decides what the settings leave open, by a pilot view of about 2000 receivers.
+    /// Decides what the settings leave open, by a pilot view of about a thousand receivers.
     View look(const ViewSettings& settings = {}, std::uint32_t seed = 0);
 
     /// Places about settings.vpl_count VPLs for the view, or takes those of settings.file. Throws Error:

@@ -57,7 +57,8 @@ struct CameraPose {
     friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
-/// What to look at. The scene and a pilot view of about 2000 receivers decide the options that are empty.
+/// What to look at. The scene and a pilot view of about a thousand receivers decide the options that are
+/// empty.
 struct ViewSettings {
     std::optional<CameraPose> camera{};  ///< empty: the scene's
     std::optional<int> width{};          ///< pixels, 1 to 65536; empty: the scene's
