@@ -78,7 +78,7 @@ void MatteCounter::count(std::uint32_t id, std::vector<Share>& shares) {
 
 void MatteCounter::add(std::span<const uint> triangles) {
     const std::size_t samples = triangles.size() / pixel_count_;
-    samples_ += static_cast<uint>(samples);
+    samples_ += samples;
     for (Kind& kind : kinds_) {
         uint last = ~0u;
         std::uint32_t id = 0;

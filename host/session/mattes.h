@@ -52,7 +52,7 @@ class MatteCounter {
   private:
     struct Share {
         std::uint32_t id;
-        uint samples;
+        std::uint64_t samples;
     };
     struct Kind {
         TriangleNames names;
@@ -65,7 +65,7 @@ class MatteCounter {
 
     std::vector<Kind> kinds_;
     std::size_t pixel_count_ = 0;
-    uint samples_ = 0;  ///< of each pixel
+    std::uint64_t samples_ = 0;  ///< of each pixel, in all passes
 };
 
 }  // namespace nearlight::core
