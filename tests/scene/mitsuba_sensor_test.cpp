@@ -170,7 +170,12 @@ TEST(MitsubaIntegrator, NamesDecideTheDepth) {
     EXPECT_TRUE(std::any_of(guided.notes.begin(), guided.notes.end(), [](const Note& note) {
         return note.text.starts_with("unknown integrator 'guided_path' is taken for") && note.line == 2;
     }));
-    EXPECT_TRUE(mentions(file_error([&] { load("path", whole("max_depth", 0)); }), "max_depth"));
+    EXPECT_EQ(load("path", whole("max_depth", 1'000'000)).max_depth, 1'000'000);
+    for (const char* depth : {"0", "-2", "1000001", "2.5"}) {
+        EXPECT_TRUE(mentions(file_error([&] { load("path", number("max_depth", depth)); }),
+                             "scene.xml:2: 'max_depth' should be -1 (unlimited), or a whole number from 1"))
+            << depth;
+    }
 }
 
 TEST(MitsubaIntegrator, PropertiesThatMayChangeThePictureAreReported) {

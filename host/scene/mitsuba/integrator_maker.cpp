@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -32,9 +33,11 @@ bool is_one_of(const std::array<std::string_view, N>& names, const Object& objec
 int path_depth(const Object& integrator) {
     constexpr double kVplDepth = 5.0;  // without a word about it, Mitsuba 0.6 stops VPLs at this depth
     const double depth = integrator.number("max_depth", integrator.type == "vpl" ? kVplDepth : -1.0);
-    if (!(depth == -1.0 || (depth >= 1.0 && depth <= 1e6))) {
+    constexpr double kMaxPathLength = 1e6;
+    const bool is_limit = depth >= 1.0 && depth <= kMaxPathLength && depth == std::floor(depth);
+    if (depth != -1.0 && !is_limit) {
         fail(integrator.find("max_depth")->where,
-             "'max_depth' should be -1 (unlimited), or 1 (emission only) or greater");
+             "'max_depth' should be -1 (unlimited), or a whole number from 1 (emission only) to 1000000");
     }
     return depth < 0.0 ? kUnlimitedPathDepth : static_cast<int>(depth);
 }
