@@ -167,6 +167,30 @@ TEST_F(ProgramTest, BuildFailureSaysWhatWhereAndKeepsSourceAndLog) {
     });
 }
 
+TEST_F(ProgramTest, AKeptSourceReplacesALinkOfItsName) {
+    write_kernel("linked.cl", "kernel void linked() { no_such_name; }\n");
+    const std::filesystem::path other = kernel_dir() / "other.txt";
+    on_each_own_device([&](Device& device) {
+        std::ofstream(other) << "of somebody else";
+        const auto kept_source = [&] {
+            Device own(device.entry(), {.kernel_dir = kernel_dir(), .cache_dir = cache_dir()});
+            const std::string message =
+                error_of([&] { wait_for(Program(own, "linked.cl"), "linked"); }).what();
+            const std::size_t begin = message.find("log are in ") + 11;
+            return std::filesystem::path(message.substr(begin, message.find(" and .log") - begin));
+        };
+        const std::filesystem::path source = kept_source();
+        ASSERT_TRUE(std::filesystem::remove(source)) << source;
+        std::filesystem::create_symlink(other, source);
+        EXPECT_EQ(kept_source(), source);
+        EXPECT_FALSE(std::filesystem::is_symlink(source));
+        std::ifstream stream(other);
+        EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "of somebody else");
+        std::filesystem::remove(source);
+        std::filesystem::remove(std::filesystem::path(source).replace_extension(".log"));
+    });
+}
+
 TEST_F(ProgramTest, ADeviceCompilesAProgramOnce) {
     on_each_own_device([&](Device& device) {
         wait_for(Program(device, "answer.cl"), "answer");

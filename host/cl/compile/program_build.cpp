@@ -2,10 +2,10 @@
 #include "host/cl/compile/program_build.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
+#include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/base/message.h"
@@ -15,6 +15,7 @@
 #include "host/cl/compile/program_cache.h"
 #include "host/cl/devices/driver_cache.h"
 #include "host/cl/opencl_error.h"
+#include "nearlight/error.h"
 
 namespace nearlight::core {
 namespace {
@@ -95,6 +96,27 @@ std::string first_error_line(const std::string& log) {
     return log.empty() ? "no build log" : log.substr(0, log.find('\n'));
 }
 
+/// Keeps the source and the log of a program that does not compile, and says where, as a part of a sentence.
+/// The folder may be one that all users share, so what lies there under the same names is replaced rather
+/// than opened: it may be a link to anywhere.
+std::string keep_failed_program(const ProgramRequest& request, const std::string& log) {
+    const DeviceEntry& entry = request.entry;
+    std::error_code ignored;
+    const std::string stem = std::filesystem::path(request.file).stem().string();
+    const std::filesystem::path base =
+        std::filesystem::temp_directory_path(ignored) /
+        ("nearlight-failed-" + stem + "-" + hex_digits(hash64(request.source)).substr(0, 8));
+    try {
+        write_text(base.string() + ".cl", request.source);
+        write_text(base.string() + ".log", "device: " + entry.name + "\ndriver: " + entry.driver +
+                                               "\nversion: " + entry.version +
+                                               "\noptions: " + request.options + "\n\n" + log);
+    } catch (const Error& error) {
+        return std::string("expanded source and log are lost: ") + error.what();
+    }
+    return "expanded source and log are in " + base.string() + ".cl and .log";
+}
+
 Error make_build_error(const cl::Program& program, const ProgramRequest& request, cl_int code) {
     const DeviceEntry& entry = request.entry;
     std::string log;
@@ -103,21 +125,11 @@ Error make_build_error(const cl::Program& program, const ProgramRequest& request
     } catch (const cl::Error&) {
         log = "the driver gives no build log";
     }
-    std::error_code ignored;
-    const std::string stem = std::filesystem::path(request.file).stem().string();
-    const std::filesystem::path base =
-        std::filesystem::temp_directory_path(ignored) /
-        ("nearlight-failed-" + stem + "-" + hex_digits(hash64(request.source)).substr(0, 8));
-    std::ofstream(base.string() + ".cl") << request.source;
-    std::ofstream(base.string() + ".log")
-        << "device: " << entry.name << "\ndriver: " << entry.driver << "\nversion: " << entry.version
-        << "\noptions: " << request.options << "\n\n"
-        << log;
     say_error("build log of kernels/" + request.file + ":\n" + log);
-    return {ErrorKind::kernel_build,
-            "kernels/" + request.file + " does not compile (" + opencl_error_name(code) + ") on device " +
-                entry.name + ", driver " + entry.driver + ", options " + request.options + ": " +
-                first_error_line(log) + "; expanded source and log are in " + base.string() + ".cl and .log"};
+    return {ErrorKind::kernel_build, "kernels/" + request.file + " does not compile (" +
+                                         opencl_error_name(code) + ") on device " + entry.name + ", driver " +
+                                         entry.driver + ", options " + request.options + ": " +
+                                         first_error_line(log) + "; " + keep_failed_program(request, log)};
 }
 
 /// Whether a build that failed with `code` tells something of the source; otherwise the device or its driver
