@@ -26,7 +26,8 @@ enum class SamplerKind {
 /// The rule for deposits of light walks in the close range, for SamplerKind::close_range; docs/method.md
 /// explains it.
 enum class Policy {
-    complete,   ///< all are kept, and share the light there with patches: unbiased
+    complete,   ///< those of all depths are candidates, as patches are, with which they share the light
+                ///< there; VPLs are drawn from both: unbiased
     paper,      ///< deposits of all depths are dropped: loses light of several bounces
     partition,  ///< deposits of depth 2 and more are kept: unbiased
 };

@@ -43,7 +43,9 @@ struct MembersOf<Policy> {
     static constexpr const char* name = "Policy";
     static constexpr const char* text = "The rule for deposits of light walks in the close range.";
     static constexpr std::array<Member, 3> members{
-        {{"complete", "deposits of all depths are kept, and share the light there with patches: unbiased"},
+        {{"complete",
+          "deposits of all depths share the light there with patches, and VPLs are drawn from both: "
+          "unbiased"},
          {"paper", "deposits of all depths are dropped: loses light of several bounces"},
          {"partition", "deposits of depth 2 and more are kept: unbiased"}}};
     static_assert(static_cast<std::size_t>(Policy::partition) + 1 == members.size());
