@@ -21,7 +21,7 @@ Image picture_with_mattes(int rows, bool expect_lack) {
     RenderedPicture picture(options, 0);
     picture.open(kSide, kSide, {}, {});
     picture.add_rows(std::vector<float>(kSide * kSide * NEARLIGHT_LAYER_CHANNELS, 1.0f));
-    picture.commit({}, true, [&](const MatteSink& sink) {
+    picture.commit({}, {}, true, [&](const MatteSink& sink) {
         sink(std::vector<float>(static_cast<std::size_t>(rows) * kSide * kMatteChannels, 0.5f));
     });
     EXPECT_EQ(picture.lacks_mattes(), expect_lack);
