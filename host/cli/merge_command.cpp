@@ -263,6 +263,9 @@ ExitCode run_merge(const MergeOptions& options, const GlobalOptions& global) {
     for (const std::string& output : options.picture.outputs) {
         spdlog::info("wrote {}", output);
     }
+    if (!options.checkpoint.empty()) {
+        spdlog::info("wrote {}", options.checkpoint.string());
+    }
     return ExitCode::done;
 }
 

@@ -189,7 +189,8 @@ void check_outputs(const PictureOptions& options) {
     for (const std::string& layer : options.layers) {
         if (std::ranges::find(known, layer) == known.end()) {
             throw Error(ErrorKind::invalid_argument,
-                        "unknown layer '" + layer + "'; choose from: " + joined(known, ", "));
+                        "unknown layer '" + layer + "'; choose from: " + joined(known, ", ") +
+                            (options.denoise ? "" : "; with --denoise also raw"));
         }
     }
     if (!options.layers.empty() && !has_outputs(options, ".exr")) {

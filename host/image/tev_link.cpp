@@ -200,8 +200,11 @@ void TevLink::send(std::span<const char> packet) {
             continue;
         }
         if (sent <= 0) {
+            const std::string reason = errno == EAGAIN
+                                           ? "it took none in " + std::to_string(kSendSeconds) + " s"
+                                           : std::strerror(errno);
             throw Error(ErrorKind::failure,
-                        "tev at " + address_ + " takes no more pictures (" + std::strerror(errno) + ")");
+                        "tev at " + address_ + " takes no more pictures (" + reason + ")");
         }
         packet = packet.subspan(static_cast<std::size_t>(sent));
     }

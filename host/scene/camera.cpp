@@ -121,7 +121,7 @@ SceneCamera posed(SceneCamera camera, const ExactPose& pose) {
         refuse_pose("its target is its origin");
     }
     if (!(norm(column(frame, 0)) > 0.5)) {
-        refuse_pose("it looks along its vector `up`; give another one");
+        refuse_pose("its vector `up` is zero, or points where it looks; give another one");
     }
     const double side = linear_determinant(camera.to_world) < 0.0 ? -1.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -251,6 +251,7 @@ TEST_F(CheckpointsOfRender, OptionsWithoutEffectAreTold) {
     EXPECT_NE(merged.errors.find("--exposure and --tonemap change nothing"), std::string::npos)
         << merged.errors;
     EXPECT_NE(merged.errors.find("--exr-compression change nothing"), std::string::npos) << merged.errors;
+    EXPECT_NE(merged.errors.find("wrote " + file("c").string()), std::string::npos) << merged.errors;
 }
 
 // Its header says the size of the picture, but its sums are those of a smaller one.

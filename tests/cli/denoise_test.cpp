@@ -160,6 +160,7 @@ TEST_F(RenderDenoised, OnlyDenoisedPicturesHaveARawLayer) {
     const ProgramResult result = render("--layers raw" + output("a.exr"));
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.errors.find("unknown layer 'raw'"), std::string::npos) << result.errors;
+    EXPECT_NE(result.errors.find("; with --denoise also raw"), std::string::npos) << result.errors;
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void apply_sensors(const Object& root, const std::string& wanted, Scene& scene, 
     }
     if (sensors.size() > 1 && wanted.empty()) {
         notes.remark(*sensors[1]->where.file, sensors[1]->where.line,
-                     "the scene has several sensors; the first one is used");
+                     "the scene has several sensors; the first one is used, unless --camera names another");
     }
     apply_sensor(*sensors[chosen], scene, notes);
 }
