@@ -98,9 +98,10 @@ void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes) {
     if (!has_light(scene, surfaces_are_lamps)) {
         scene.environment = neutral_sky();
         notes.remark(scene.source, 0,
-                     has_light(scene) ? "the file has no camera and no light but surfaces that glow; a "
-                                        "neutral sky is added"
-                                      : "the file has no light; a neutral sky is added");
+                     has_emitting_surface(scene)
+                         ? "the file has no camera and no light but surfaces that glow; a "
+                           "neutral sky is added"
+                         : "the file has no light; a neutral sky is added");
     }
 }
 

@@ -164,6 +164,7 @@ TEST_F(GltfLoader, OnlyMitsubaScenesHaveParameters) {
 TEST_F(GltfLoader, WithoutCameraAndLightOnesAreMadeUp) {
     const Scene scene = load();
     EXPECT_EQ(scene.notes.size(), 2u);
+    EXPECT_TRUE(has_note(scene, "the file has no light; a neutral sky is added"));
     EXPECT_GT(scene.environment.width, 1);
     EXPECT_TRUE(scene.has_open_exposure);
     EXPECT_TRUE(scene.open_veils);
