@@ -95,10 +95,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
 }
 
 void check_checkpoint_file(const std::filesystem::path& file, const std::vector<std::string>& outputs) {
-    if (std::ranges::find(outputs, file.string()) != outputs.end()) {
-        throw Error(ErrorKind::invalid_argument,
-                    "--checkpoint '" + file.string() + "' is the picture's file too; give another one");
-    }
+    check_is_no_output("--checkpoint", file, outputs);
     check_writable(file.string());
 }
 

@@ -184,6 +184,17 @@ void check_writable(const std::string& file) {
     }
 }
 
+void check_is_no_output(const std::string& option, const fs::path& file,
+                        const std::vector<std::string>& outputs) {
+    const auto whole = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+    const bool is_output =
+        std::ranges::any_of(outputs, [&](const std::string& output) { return whole(output) == whole(file); });
+    if (is_output) {
+        throw Error(ErrorKind::invalid_argument,
+                    option + " '" + file.string() + "' is the picture's file too; give another one");
+    }
+}
+
 void check_outputs(const PictureOptions& options) {
     const std::vector<std::string> known = with_mattes(names_of(layers_of(options)), options);
     for (const std::string& layer : options.layers) {

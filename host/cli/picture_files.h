@@ -43,6 +43,11 @@ std::string default_output(const std::filesystem::path& scene);
 /// Throws Error(ErrorKind::file) if the file cannot be written, as far as one can see beforehand.
 void check_writable(const std::string& file);
 
+/// Throws Error(ErrorKind::invalid_argument) if what `option` is to write would replace a picture, because
+/// its file is one of `outputs`.
+void check_is_no_output(const std::string& option, const std::filesystem::path& file,
+                        const std::vector<std::string>& outputs);
+
 /// Checks before any work starts that the outputs can be written. Throws Error(ErrorKind::invalid_argument)
 /// for an unknown extension or layer, and Error(ErrorKind::file) for a folder that does not exist or cannot
 /// be written to.

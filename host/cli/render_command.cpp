@@ -54,6 +54,9 @@ ExitCode render_once(const RenderOptions& options, const GlobalOptions& global, 
                      Helpers* helpers) {
     check_outputs(options.picture);
     check_checkpoint(options.checkpoint, options.picture.outputs);
+    if (!options.vpl_files.save.empty()) {
+        check_is_no_output("--save-vpls", options.vpl_files.save, options.picture.outputs);
+    }
     warn_of_idle_interval(options.checkpoint, settled(options));
     std::optional<CheckpointReader> reader = open_checkpoint(options.checkpoint);
     const Stopwatch total;

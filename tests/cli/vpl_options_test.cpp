@@ -68,6 +68,7 @@ TEST_F(VplOptions, WhatMakesNoSenseIsRefused) {
     expect_refusal("--load-vpls " + file_, 3, "no such file");
     expect_refusal("--vpls 50 --load-vpls " + file_, 2, "--vpls");
     expect_refusal("--save-vpls " + quoted(folder_ / "nosuch" / "a.ply"), 3, "nosuch");
+    expect_refusal("-o a.png --save-vpls ./a.png", 2, "--save-vpls './a.png' is the picture's file too");
 }
 
 }  // namespace
