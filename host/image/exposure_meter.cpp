@@ -12,9 +12,25 @@ namespace nearlight::core {
 void ExposureMeter::Light::add(Vec3 color) {
     const float y = luminance(color);
     if (is_finite(color) && y > 0.0f) {
-        log2_sum += std::log2(static_cast<double>(y));
+        luminances.push_back(y);
         brightest.push_back(max_component(color));
     }
+}
+
+double ExposureMeter::Light::mean_log2() const {
+    constexpr float kDarkest = 1.0f / 1024;  // part of the median, of what counts
+    std::vector<float> sorted = luminances;
+    const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, median);
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const float y : luminances) {
+        if (y >= kDarkest * *median) {
+            sum += std::log2(static_cast<double>(y));
+            ++count;
+        }
+    }
+    return sum / static_cast<double>(count);
 }
 
 void ExposureMeter::add(Vec3 color, float depth, Vec3 albedo) {
@@ -39,10 +55,9 @@ float ExposureMeter::exposure() const {
     if (brightest.empty()) {
         return 0.0f;
     }
-    const double mean = light.log2_sum / static_cast<double>(brightest.size());
     const auto last = static_cast<std::ptrdiff_t>(kAlmostAll * static_cast<double>(brightest.size() - 1));
     std::nth_element(brightest.begin(), brightest.begin() + last, brightest.end());
-    const double for_grey = std::log2(kGrey) - mean;
+    const double for_grey = std::log2(kGrey) - light.mean_log2();
     const double for_white =
         std::log2(kWhite / static_cast<double>(brightest[static_cast<std::size_t>(last)]));
     return static_cast<float>(std::clamp(std::min(for_grey, for_white), -60.0, 60.0));

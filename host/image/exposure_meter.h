@@ -20,17 +20,20 @@ class ExposureMeter {
     void add(Vec3 color, float depth, Vec3 albedo);
 
     /// The exposure in stops, from -60 to 60, at which the picture looks right on a screen: what is seen is
-    /// grey on the average, and hardly anything is white. Black pixels do not count, and a picture of nothing
-    /// else has the exposure 0.
+    /// grey on the average, and hardly anything is white. Pixels that are black, or more than ten stops
+    /// darker than half of the others, do not count, because a screen shows them black at any such exposure.
+    /// A picture of black pixels alone has the exposure 0.
     [[nodiscard]] float exposure() const;
 
   private:
     /// The light of a part of the picture.
     struct Light {
-        double log2_sum = 0;           ///< of luminances
-        std::vector<float> brightest;  ///< component of each pixel
+        std::vector<float> luminances;  ///< of pixels that are not black
+        std::vector<float> brightest;   ///< the largest component of each of them
 
         void add(Vec3 color);
+        /// The mean logarithm to the base 2 of the luminances that count.
+        [[nodiscard]] double mean_log2() const;
     };
     Light surfaces_;
     Light background_;

@@ -41,10 +41,23 @@ TEST(ExposureMeter, MakesTheMeanGreyAndKeepsLightsFromBurning) {
 TEST(ExposureMeter, BlackAndBadPixelsDoNotCount) {
     const float even = exposure_of({{.count = 100, .light = 0.01f}});
     EXPECT_NEAR(exposure_of({{.count = 100, .light = 0.01f}, {.count = 100}}), even, 1e-5f);
-    EXPECT_NEAR(exposure_of({{.count = 100, .light = 0.01f}, {.light = NAN}, {.light = kInfiniteDepth}}), even,
-                1e-5f);
+    EXPECT_NEAR(exposure_of({{.count = 100, .light = 0.01f}, {.light = NAN}, {.light = kInfiniteDepth}}),
+                even, 1e-5f);
     EXPECT_EQ(exposure_of({{.count = 10}}), 0.0f);
     EXPECT_EQ(exposure_of({}), 0.0f);
+}
+
+/// What a mirror shows of a black background is hardly ever exactly 0.
+TEST(ExposureMeter, WhatScreensShowBlackDoesNotCountEither) {
+    const float even = exposure_of({{.count = 60, .light = 0.5f, .depth = 2}});
+    EXPECT_NEAR(
+        exposure_of({{.count = 60, .light = 0.5f, .depth = 2}, {.count = 40, .light = 1e-6f, .depth = 2}}),
+        even, 1e-5f);
+    EXPECT_NEAR(
+        exposure_of({{.count = 60, .light = 0.5f, .depth = 2}, {.count = 40, .light = 2e-3f, .depth = 2}}),
+        even + 0.4f * std::log2(250.0f), 1e-3f)
+        << "what is only dark counts";
+    EXPECT_NEAR(exposure_of({{.count = 10, .light = 1e-6f, .depth = 2}}), std::log2(0.25e6f), 1e-3f);
 }
 
 /// A surface that is eight times darker than another in the same light stays darker, but by the root of that
