@@ -91,6 +91,10 @@ TEST_F(GltfLoader, WhatAMaterialMayNotSayIsNoted) {
     for (const Material& material : scene.materials) {
         EXPECT_GE(material.emission.value.x, 0.0f);
     }
+    gltf_.material()["extensions"] = {{"KHR_materials_pbrSpecularGlossiness",
+                                       {{"diffuseFactor", {2, -1, 0.5, 1}}, {"glossinessFactor", 3}}}};
+    EXPECT_TRUE(has_note(load(), "a diffuseFactor that is not between 0 and 1"));
+    EXPECT_TRUE(has_note(load(), "a glossinessFactor that is not between 0 and 1"));
 }
 
 TEST_F(GltfLoader, AWeakerSpecularFactorReflectsLess) {

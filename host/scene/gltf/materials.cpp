@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host/scene/gltf/factors.h"
 #include "host/scene/gltf/transmission.h"
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
@@ -204,9 +205,21 @@ void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
                                          {"KHR_materials_clearcoat", "clearcoatRoughnessFactor"},
                                          {"KHR_materials_transmission", "transmissionFactor"},
                                          {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor"},
+                                         {"KHR_materials_pbrSpecularGlossiness", "glossinessFactor"},
                                          {"KHR_materials_anisotropy", "anisotropyStrength"},
                                          {"KHR_materials_specular", "specularFactor"}}) {
         if (!is_part(number_of(source.extensions, extension, key, 0))) {
+            approximate("material '" + source.name + "' has a " + key +
+                        " that is not between 0 and 1, and is limited");
+        }
+    }
+    for (const auto& [extension, key] :
+         {std::pair{"KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor"},
+          {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor"},
+          {"KHR_materials_pbrSpecularGlossiness", "specularFactor"},
+          {"KHR_materials_sheen", "sheenColorFactor"}}) {
+        const Vec3 color = color_of(source.extensions, extension, key, {0, 0, 0});
+        if (!(clamped(color) == color)) {
             approximate("material '" + source.name + "' has a " + key +
                         " that is not between 0 and 1, and is limited");
         }
