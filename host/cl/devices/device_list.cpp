@@ -277,6 +277,9 @@ void set_driver_defaults() {
         // group size of a launch. The second compilation makes no faster kernel (bench/log/compile.md), and
         // users would wait for it.
         setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+        // PoCL sets this one when it looks for devices, while other threads load the scene. A name that is
+        // new moves the list of variables, so that a getenv() of these threads would read freed memory.
+        setenv("HWLOC_PLUGINS_PATH", "/dev/null", 0);
         ensure_driver_cache();
     });
 }

@@ -40,9 +40,9 @@ struct DeviceList {
     std::vector<DeviceEntry> devices;
     std::vector<std::string> problems;
 };
-/// Sets environment variables that drivers read, unless they are set; does nothing when it is called again.
-/// list_devices() calls it too, but if the process has several threads, this must be called before they
-/// start.
+/// Sets environment variables that drivers read or set, unless they are set; does nothing when it is called
+/// again. list_devices() calls it too, but if the process has several threads, this must be called before
+/// they start.
 void set_driver_defaults();
 /// Limits the threads of CPU drivers that allow it (PoCL). Must be called before list_devices().
 void limit_driver_threads(int threads);

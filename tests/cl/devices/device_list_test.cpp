@@ -2,6 +2,7 @@
 #include "host/cl/devices/device_list.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -159,6 +160,22 @@ TEST_F(ChooseDevices, NoDeviceAtAllSaysWhatToInstall) {
     }
     const DeviceList broken{.devices = {}, .problems = {"platform 'X' is broken"}};
     EXPECT_TRUE(mentions(error_of([&] { choose_devices(broken, ""); }), "platform 'X' is broken"));
+}
+
+std::size_t variable_count() {
+    std::size_t count = 0;
+    while (environ[count] != nullptr) {
+        ++count;
+    }
+    return count;
+}
+
+/// Other threads may read the environment meanwhile, which is no longer safe once a variable is new.
+TEST(DeviceList, DriversThatLookForDevicesAddNoVariable) {
+    set_driver_defaults();
+    const std::size_t before = variable_count();
+    list_devices();
+    EXPECT_EQ(variable_count(), before);
 }
 
 TEST(DeviceList, EntriesAreNumberedInOrderAndDescribed) {
