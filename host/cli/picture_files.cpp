@@ -184,9 +184,11 @@ void check_writable(const std::string& file) {
     }
 }
 
-void check_is_no_output(const std::string& option, const fs::path& file,
+void check_is_no_output(const std::string& option, const std::filesystem::path& file,
                         const std::vector<std::string>& outputs) {
-    const auto whole = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+    const auto whole = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+    };
     const bool is_output =
         std::ranges::any_of(outputs, [&](const std::string& output) { return whole(output) == whole(file); });
     if (is_output) {
