@@ -99,7 +99,7 @@ void add_default_light(Scene& scene, bool surfaces_are_lamps, NoteSink& notes) {
         scene.environment = neutral_sky();
         notes.remark(scene.source, 0,
                      has_emitting_surface(scene)
-                         ? "the file has no camera and no light but surfaces that glow; a "
+                         ? "the file has no light but surfaces that glow, and no camera; a "
                            "neutral sky is added"
                          : "the file has no light; a neutral sky is added");
     }

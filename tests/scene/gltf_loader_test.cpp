@@ -174,7 +174,7 @@ TEST_F(GltfLoader, PartsThatGlowAreNoLampsUnlessTheFileHasACamera) {
     gltf_.material()["emissiveFactor"] = {1, 1, 1};
     const Scene scene = load();
     EXPECT_GT(scene.environment.width, 1);
-    EXPECT_TRUE(has_note(scene, "no camera and no light but surfaces that glow; a neutral sky is added"));
+    EXPECT_TRUE(has_note(scene, "no light but surfaces that glow, and no camera; a neutral sky is added"));
     gltf_.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
     gltf_.root["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"camera", 0}}};
     EXPECT_EQ(load().environment.width, 0);

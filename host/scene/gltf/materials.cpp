@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "host/scene/gltf/factors.h"
 #include "host/scene/gltf/transmission.h"
 #include "host/scene/material_model.h"
 #include "host/scene/scene_names.h"
@@ -213,13 +212,12 @@ void MaterialMaker::note_odd_values(const tinygltf::Material& source) {
                         " that is not between 0 and 1, and is limited");
         }
     }
-    for (const auto& [extension, key] :
-         {std::pair{"KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor"},
-          {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor"},
-          {"KHR_materials_pbrSpecularGlossiness", "specularFactor"},
-          {"KHR_materials_sheen", "sheenColorFactor"}}) {
-        const Vec3 color = color_of(source.extensions, extension, key, {0, 0, 0});
-        if (!(clamped(color) == color)) {
+    for (const auto& [extension, key, count] :
+         {std::tuple{"KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor", 3u},
+          {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor", 4u},
+          {"KHR_materials_pbrSpecularGlossiness", "specularFactor", 3u},
+          {"KHR_materials_sheen", "sheenColorFactor", 3u}}) {
+        if (!std::ranges::all_of(numbers_of(source.extensions, extension, key, count), is_part)) {
             approximate("material '" + source.name + "' has a " + key +
                         " that is not between 0 and 1, and is limited");
         }
