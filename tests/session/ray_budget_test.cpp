@@ -101,6 +101,21 @@ TEST_F(RayBudgetTest, TheSharedLimitGoesByTheMeanLight) {
     });
 }
 
+/// The pilot gathers a part of a large set, whose VPLs stand for all, so that they bring as much light.
+TEST_F(RayBudgetTest, APartOfALargeSetStandsForAllOfIt) {
+    const Scene scene = test::corner();
+    on_each_device([&](Device& device) {
+        Session session(device, scene);
+        const auto budget_for = [&](uint vpl_count) {
+            return test::render_image(session, pilot_settings(std::nullopt, vpl_count)).report.ray_budget;
+        };
+        const RayBudget of_few = budget_for(1500);
+        const RayBudget of_many = budget_for(12000);  // every fifth or sixth of them is gathered
+        EXPECT_NEAR(of_many.shared_limit, of_few.shared_limit, 0.05f * of_few.shared_limit);
+        EXPECT_LE(of_many.clamp_radius, of_few.clamp_radius) << "more VPLs have less error";
+    });
+}
+
 TEST_F(RayBudgetTest, WithoutCompensationTheRadiusIsATwentiethOfTheRange) {
     const Scene scene = test::corner();
     Session session(*devices().front(), scene);
