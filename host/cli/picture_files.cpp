@@ -289,6 +289,13 @@ void PictureFiles::open(int width, int height, const Metadata& metadata, const S
     }
 }
 
+void PictureFiles::set_text(const std::string& name, const std::string& text) {
+    metadata_[name] = text;
+    for (File& file : files_) {
+        file.writer.set_text(name, text);
+    }
+}
+
 /// Writes the files that waited for the exposure.
 void PictureFiles::write_waiting(bool quiet) {
     if (!has_waiting_) {

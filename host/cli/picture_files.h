@@ -68,6 +68,8 @@ class PictureFiles {
     /// `place` says which part of a larger picture this is, if it is one.
     void open(int width, int height, const Metadata& metadata, const ScreenLook& look,
               const std::optional<ImagePlace>& place = std::nullopt);
+    /// Sets an attribute that is a text, before the first rows.
+    void set_text(const std::string& name, const std::string& text);
     /// Writes rows with the channels of layer_channels(), then those of kRawLayer if the picture is denoised,
     /// and then those of the mattes that the options ask for.
     void write_rows(std::span<const float> rows);

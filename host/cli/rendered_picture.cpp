@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/cli/rendered_picture.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "host/image/image_io.h"
@@ -9,7 +10,15 @@
 namespace nearlight::core {
 namespace {
 
+constexpr const char* kDenoisedAttribute = "nearlight:denoised";
 constexpr std::size_t kDenoisedPixelFloats = NEARLIGHT_LAYER_CHANNELS + kRawLayer.channel_count;
+
+/// What guides the denoiser.
+std::string guide_text(bool is_fast, bool uses_variance) {
+    return is_fast
+               ? "fast, albedo, N"
+               : std::string("direct and indirect apart, albedo, N") + (uses_variance ? ", variance" : "");
+}
 
 }  // namespace
 
@@ -19,20 +28,17 @@ RenderedPicture::RenderedPicture(const PictureOptions& options, int threads)
       files_(options) {
     if (options.denoise) {
         denoiser_.emplace(threads);
+        guide_ = guide_text(is_fast_, false);
     }
 }
 
 std::string RenderedPicture::denoiser() const {
-    if (!denoiser_) {
-        return "none";
-    }
-    return denoiser_->name() +
-           (is_fast_ ? " (fast, albedo, N)" : " (direct and indirect apart, albedo, N, variance)");
+    return denoiser_ ? denoiser_->name() + " (" + guide_ + ")" : "none";
 }
 
 void RenderedPicture::open(int width, int height, Metadata metadata, const ScreenLook& look,
                            const std::optional<ImagePlace>& place) {
-    metadata["nearlight:denoised"] = denoiser();
+    metadata[kDenoisedAttribute] = denoiser();
     width_ = width;
     rows_.clear();
     files_.open(width, height, metadata, look, place);
@@ -77,15 +83,21 @@ void RenderedPicture::denoise(bool knows_variance) {
         light = {rows + kRawLayer.first_channel};
     }
     const std::size_t row_floats = static_cast<std::size_t>(width_) * kDenoisedPixelFloats;
+    const int height = static_cast<int>(rows_.size() / row_floats);
+    const bool uses_variance = knows_variance && !is_fast_;
     denoiser_->denoise({.width = width_,
-                        .height = static_cast<int>(rows_.size() / row_floats),
+                        .height = height,
                         .pixel_floats = kDenoisedPixelFloats,
                         .light = std::move(light),
                         .albedo = rows + NEARLIGHT_LAYER_ALBEDO,
                         .normal = rows + NEARLIGHT_LAYER_NORMAL,
-                        .variance = knows_variance && !is_fast_ ? rows + NEARLIGHT_LAYER_VARIANCE : nullptr,
+                        .variance = uses_variance ? rows + NEARLIGHT_LAYER_VARIANCE : nullptr,
                         .thorough = !is_fast_,
                         .output = rows + NEARLIGHT_LAYER_BEAUTY});
+    guide_ = std::min(width_, height) < Denoiser::kMinSide
+                 ? "unchanged: less than " + std::to_string(Denoiser::kMinSide) + " rows or columns"
+                 : guide_text(is_fast_, uses_variance);
+    files_.set_text(kDenoisedAttribute, denoiser());
     denoising_seconds_ = watch.seconds();
 }
 

@@ -40,7 +40,7 @@ class RenderedPicture {
                 const MatteSource& mattes = {});
 
     /// What denoises the picture, such as "Open Image Denoise 2.5.1 (direct and indirect apart, albedo, N,
-    /// variance)", or "none".
+    /// variance)", or "none". Whether the variance is used is known from commit() on.
     [[nodiscard]] std::string denoiser() const;
     [[nodiscard]] double denoising_seconds() const { return denoising_seconds_; }
     [[nodiscard]] double matte_seconds() const { return matte_seconds_; }
@@ -54,6 +54,7 @@ class RenderedPicture {
     [[nodiscard]] std::size_t pixel_floats() const;
 
     std::optional<Denoiser> denoiser_;
+    std::string guide_;  ///< what guides the denoiser
     bool is_fast_;
     std::size_t matte_floats_;  ///< of a pixel's mattes
     PictureFiles files_;

@@ -244,6 +244,10 @@ ImageWriter::~ImageWriter() = default;
 ImageWriter::ImageWriter(ImageWriter&&) noexcept = default;
 ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
 
+void ImageWriter::set_text(const std::string& name, const std::string& text) {
+    state_->task.metadata[name] = text;
+}
+
 void ImageWriter::write_rows(std::span<const float> values) {
     const std::size_t row_size = static_cast<std::size_t>(state_->width) * state_->channel_count;
     const std::size_t row_count = values.size() / row_size;

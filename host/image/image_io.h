@@ -74,6 +74,8 @@ class ImageWriter {
     ImageWriter(ImageWriter&&) noexcept;
     ImageWriter& operator=(ImageWriter&&) noexcept;
 
+    /// Sets an attribute of the metadata that is a text. Files take it only before their first rows.
+    void set_text(const std::string& name, const std::string& text);
     /// Writes the next rows, a multiple of width·channels values. Throws Error(ErrorKind::failure) for values
     /// that are not whole rows or too many, and Error(ErrorKind::file) if they cannot be written.
     void write_rows(std::span<const float> values);

@@ -37,6 +37,10 @@ class RenderDenoised : public testing::Test {
     [[nodiscard]] std::string output(const std::string& name) const {
         return " -o " + quoted(folder_ / name);
     }
+    /// What a file says of its denoising.
+    [[nodiscard]] std::string denoised_by(const std::string& name) const {
+        return std::get<std::string>(read_metadata(folder_ / name).at("nearlight:denoised"));
+    }
     [[nodiscard]] Image picture(const std::string& name) const { return read_image(folder_ / name); }
 
     TemporaryFolder folder_;
@@ -49,7 +53,7 @@ TEST_F(RenderDenoised, ChangesTheBeautyAndKeepsItAsALayer) {
     const nlohmann::json json =
         rendered("--denoise" + output("a.exr") + output("a.png"), with_library("fake_oidn_2"));
     EXPECT_EQ(plain["denoiser"], "none");
-    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (direct and indirect apart, albedo, N, variance)");
+    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (direct and indirect apart, albedo, N)");
     EXPECT_EQ(json["image_hash"], plain["image_hash"]);
     EXPECT_GT(json["seconds"]["denoise"], 0.0);
     const Image raw = picture("plain.exr");
@@ -71,20 +75,22 @@ TEST_F(RenderDenoised, ChangesTheBeautyAndKeepsItAsALayer) {
         }
     }
     EXPECT_EQ(wrong, 0u);
-    const auto name = [&](const char* file) {
-        return std::get<std::string>(read_metadata(folder_ / file).at("nearlight:denoised"));
-    };
-    EXPECT_EQ(name("plain.exr"), "none");
-    EXPECT_EQ(name("a.exr"), "Open Image Denoise 2.9.7 (direct and indirect apart, albedo, N, variance)");
+    EXPECT_EQ(denoised_by("plain.exr"), "none");
+    EXPECT_EQ(denoised_by("a.exr"), json["denoiser"]);
+    EXPECT_EQ(denoised_by("a.png"), json["denoiser"]);
 }
 
 /// What the mean of two passes keeps of its light, by their variance.
 TEST_F(RenderDenoised, TheMeanOfPassesIsDenoisedOnceAndKeepsDetail) {
     NEARLIGHT_NEEDS_DEVICE();
     const nlohmann::json json =
-        rendered("--denoise --passes 2 --layers raw,variance --exr-precision float" + output("a.exr"),
+        rendered("--denoise --passes 2 --layers raw,variance --exr-precision float --exposure auto" +
+                     output("a.exr") + output("a.png"),
                  with_library("fake_oidn_2"));
     EXPECT_EQ(json["passes"], 2);
+    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (direct and indirect apart, albedo, N, variance)");
+    EXPECT_EQ(denoised_by("a.exr"), json["denoiser"]);
+    EXPECT_EQ(denoised_by("a.png"), json["denoiser"]);
     const Image image = picture("a.exr");
     const auto layer = [&](const std::string& first) {
         std::vector<float> values;
@@ -114,7 +120,10 @@ TEST_F(RenderDenoised, TheMeanOfPassesIsDenoisedOnceAndKeepsDetail) {
 
 TEST_F(RenderDenoised, OnePixelIsEnough) {
     NEARLIGHT_NEEDS_DEVICE();
-    (void)rendered("--denoise --size 1x1" + output("a.exr"), with_library("fake_oidn_2"));
+    const nlohmann::json json =
+        rendered("--denoise --size 1x1" + output("a.exr"), with_library("fake_oidn_2"));
+    EXPECT_EQ(json["denoiser"], "Open Image Denoise 2.9.7 (unchanged: less than 16 rows or columns)");
+    EXPECT_EQ(denoised_by("a.exr"), json["denoiser"]);
     const Image image = picture("a.exr");
     EXPECT_EQ(image.width, 1);
     EXPECT_GT(image.at(0, 0, 1), 0.0f);

@@ -47,6 +47,23 @@ TEST(ImageIo, APartOfAPictureHasItsPlace) {
     EXPECT_FALSE(read_image(folder / "whole.exr").place);
 }
 
+/// What is known only when a picture is done, but before it is written.
+TEST(ImageIo, TextsAreSetBeforeTheFirstRows) {
+    const TemporaryFolder folder;
+    const Image image = noise(5, 8, {"R", "G", "B"});
+    for (const char* name : {"a.exr", "a.png"}) {
+        ImageWriter writer(folder / name, 5, 8, image.channels,
+                           {.metadata = {{"nearlight:a", std::string("old")}}});
+        writer.set_text("nearlight:a", "a longer text");
+        writer.set_text("nearlight:b", "new");
+        writer.write_rows(image.values);
+        writer.commit();
+        const Metadata metadata = read_metadata(folder / name);
+        EXPECT_EQ(metadata.at("nearlight:a"), Metadata::mapped_type{"a longer text"}) << name;
+        EXPECT_EQ(metadata.at("nearlight:b"), Metadata::mapped_type{"new"}) << name;
+    }
+}
+
 TEST(ImageIo, MissingRowsAreZero) {
     const TemporaryFolder folder;
     Image image = noise(5, 8, {"R", "G", "B"});
