@@ -37,7 +37,7 @@ void TevPicture::attempt(const Action& action) {
     try {
         action();
     } catch (const Error& error) {
-        spdlog::warn("{}; the files are written all the same", error.what());
+        spdlog::warn("{}; the picture is not sent to it any more, and the render goes on", error.what());
         link_.reset();
     }
 }

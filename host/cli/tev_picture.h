@@ -22,7 +22,8 @@ class TevPicture {
 
     /// Begins with the topmost row, again if it was called before.
     void open(int width, int height);
-    /// Sends the next rows, with the channels of layer_channels(). If tev is gone, a warning says so, once.
+    /// Sends the next rows, with the channels of layer_channels(). If tev is gone or no longer reads, a
+    /// warning says so, and nothing is sent from then on.
     void add_rows(std::span<const float> rows);
 
   private:

@@ -5,12 +5,12 @@
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -21,7 +21,8 @@ namespace nearlight::core {
 namespace {
 
 constexpr int kConnectMilliseconds = 3000;
-constexpr int kSendSeconds = 10;
+/// How long tev may read nothing while there is something to send. The render waits meanwhile.
+constexpr std::chrono::seconds kSendTime{2};
 /// Rows are sent in packets of about this many floats.
 constexpr std::size_t kFloatsPerPacket = std::size_t{1} << 20u;
 
@@ -96,7 +97,8 @@ HostAndPort split(const std::string& address) {
     return parts;
 }
 
-/// Connects within kConnectMilliseconds. Returns an error number, or 0.
+/// Connects within kConnectMilliseconds, and leaves the socket one that never waits by itself. Returns an
+/// error number, or 0.
 int connect_in_time(int socket, const addrinfo& to) {
     fcntl(socket, F_SETFL, O_NONBLOCK);
     if (connect(socket, to.ai_addr, to.ai_addrlen) != 0) {
@@ -114,10 +116,21 @@ int connect_in_time(int socket, const addrinfo& to) {
             return error;
         }
     }
-    fcntl(socket, F_SETFL, 0);
-    const timeval limit{.tv_sec = kSendSeconds, .tv_usec = 0};
-    setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
     return 0;
+}
+
+/// Waits until a good part of what was sent is read, at most for kSendTime. The time limit of a socket would
+/// begin anew with every few bytes that a full socket still takes.
+bool waits_for_reader(int socket) {
+    const auto end = std::chrono::steady_clock::now() + kSendTime;
+    pollfd waiting{.fd = socket, .events = POLLOUT, .revents = 0};
+    int ready = 0;
+    do {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+        ready = poll(&waiting, 1, std::max(0, static_cast<int>(left.count())));
+    } while (ready < 0 && errno == EINTR);
+    return ready > 0;
 }
 
 [[noreturn]] void fail_to_connect(const std::string& address, const std::string& reason) {
@@ -196,17 +209,18 @@ void TevLink::update(const std::string& name, int first, int width, std::span<co
 void TevLink::send(std::span<const char> packet) {
     while (!packet.empty()) {
         const ssize_t sent = ::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) {
+        if (sent > 0) {
+            packet = packet.subspan(static_cast<std::size_t>(sent));
             continue;
         }
-        if (sent <= 0) {
-            const std::string reason = errno == EAGAIN
-                                           ? "it took none in " + std::to_string(kSendSeconds) + " s"
-                                           : std::strerror(errno);
-            throw Error(ErrorKind::failure,
-                        "tev at " + address_ + " takes no more pictures (" + reason + ")");
+        const int error = errno;
+        const bool is_full = error == EAGAIN;
+        if (error == EINTR || (is_full && waits_for_reader(socket_))) {
+            continue;
         }
-        packet = packet.subspan(static_cast<std::size_t>(sent));
+        const std::string reason = is_full ? "it has not read for " + std::to_string(kSendTime.count()) + " s"
+                                           : std::strerror(error);
+        throw Error(ErrorKind::failure, "tev at " + address_ + " takes no more pictures (" + reason + ")");
     }
 }
 

@@ -24,7 +24,7 @@ class TevLink {
     TevLink& operator=(const TevLink&) = delete;
 
     /// Makes a black picture of that name, which replaces one of the same name. Both functions throw
-    /// Error(ErrorKind::failure) if tev no longer takes anything.
+    /// Error(ErrorKind::failure) if tev no longer takes anything: if it is gone, or reads nothing for 2 s.
     void create(const std::string& name, int width, int height, std::span<const std::string> channels);
     /// Replaces whole rows of a picture that was created, from row `first` on. `values` are interleaved.
     void update(const std::string& name, int first, int width, std::span<const std::string> channels,

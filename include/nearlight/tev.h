@@ -22,7 +22,8 @@ class NEARLIGHT_API TevLink {
 
     /// Shows a picture under a name. A later picture of the same name, size and channels replaces its pixels.
     /// Throws Error: ErrorKind::invalid_argument for an image without pixels or channels, or whose values do
-    /// not fit its size; ErrorKind::failure if tev no longer takes anything.
+    /// not fit its size; ErrorKind::failure if tev no longer takes anything, because it is gone or has read
+    /// nothing for 2 s.
     void show(const std::string& name, const Image& image);
 
   private:

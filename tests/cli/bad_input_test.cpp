@@ -10,6 +10,7 @@
 #include "host/cl/devices/device_list.h"
 #include "tests/cli/run_program.h"
 #include "tests/support/device_required.h"
+#include "tests/support/tev_port.h"
 
 namespace nearlight::core {
 namespace {
@@ -92,6 +93,14 @@ class BadInputOnDevice : public BadInput {
   protected:
     void SetUp() override { NEARLIGHT_NEEDS_DEVICE(); }
 };
+
+/// A tev that accepts the connection and never reads, which cannot hold 20 MB.
+TEST_F(BadInputOnDevice, ATevThatDoesNotRead) {
+    const test::TevPort port;
+    expect_picture(
+        render(good_scene(), "--size 512x512 --tev " + port.address()),
+        "(it has not read for 2 s); the picture is not sent to it any more, and the render goes on");
+}
 
 TEST_F(BadInput, BrokenXml) {
     expect_error(render(folder_ / "missing.xml"), 3, "no such scene file");

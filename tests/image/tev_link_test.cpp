@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <thread>
 
 #include "nearlight/error.h"
 #include "tests/support/tev_port.h"
@@ -69,18 +70,56 @@ TEST(TevLink, RefusesWhatIsNoAddress) {
     }
 }
 
+/// What is said when a link that sends 100 MB fails.
+std::string error_of_sending(TevLink& link) {
+    const Image image = make_image(512, 512, kChannels);
+    try {
+        for (int i = 0; i < 50; ++i) {
+            link.create("room", image.width, image.height, image.channels);
+            link.update("room", 0, image.width, image.channels, image.values);
+        }
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::failure);
+        return error.what();
+    }
+    ADD_FAILURE() << "everything was sent";
+    return "";
+}
+
 TEST(TevLink, SaysThatTevIsGone) {
     TevPort port;
     TevLink link(port.address());
     port.take_connection();
     port.close_all();
-    const Image image = make_image(512, 512, kChannels);
-    EXPECT_THROW(
-        for (int i = 0; i < 50; ++i) {
-            link.create("room", image.width, image.height, image.channels);
-            link.update("room", 0, image.width, image.channels, image.values);
-        },
-        Error);
+    const std::string error = error_of_sending(link);
+    EXPECT_TRUE(error.starts_with("tev at ")) << error;
+    EXPECT_NE(error.find(" takes no more pictures ("), std::string::npos) << error;
+}
+
+TEST(TevLink, SaysThatTevDoesNotRead) {
+    TevPort port;
+    TevLink link(port.address());
+    port.take_connection();
+    EXPECT_EQ(error_of_sending(link),
+              "tev at " + port.address() + " takes no more pictures (it has not read for 2 s)");
+}
+
+/// What a socket does not take at once waits until tev reads.
+TEST(TevLink, WaitsWhileTevReads) {
+    TevPort port;
+    std::jthread tev;  // ends when the link does
+    TevLink link(port.address());
+    port.take_connection();
+    const Image image = make_image(1024, 1024, kChannels);
+    const std::size_t half = image.values.size() / 2 * sizeof(float);
+    tev = std::jthread([&port, half] {
+        for (int i = 0; i < 8; ++i) {
+            EXPECT_GT(port.packet().size(), half) << i;
+        }
+    });
+    for (int i = 0; i < 4; ++i) {
+        link.update("room", 0, image.width, image.channels, image.values);
+    }
 }
 
 }  // namespace
