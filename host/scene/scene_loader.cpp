@@ -39,7 +39,8 @@ void refuse_parameters(const std::filesystem::path& file, const LoadOptions& opt
 void refuse_animations(const std::filesystem::path& file, const LoadOptions& options) {
     if (options.moment) {
         throw Error(ErrorKind::invalid_argument,
-                    file.string() + ": has no animations; only glTF scenes (.gltf, .glb) have animations");
+                    file.string() + ": has no animations; only glTF scenes (.gltf, .glb) have animations",
+                    "frames");
     }
 }
 

@@ -22,9 +22,9 @@ namespace nearlight {
 /// those of Scene::load(). After an error it can be used as before.
 class NEARLIGHT_API Animation {
   public:
-    /// Reads the file as it is at frame 0. Throws Error: ErrorKind::file if it has no animations, or if they
-    /// are broken; ErrorKind::invalid_argument for an animation that is not there, or a number out of its
-    /// range, or for `load.origin` without `load.target`, because the middle of the scene may move.
+    /// Reads the file as it is at frame 0. Throws Error: ErrorKind::file if its animations are broken;
+    /// ErrorKind::invalid_argument if it has none, for an animation that is not there, for a number out of
+    /// its range, or for `load.origin` without `load.target`, because the middle of the scene may move.
     Animation(const Devices& devices, const std::filesystem::path& file, const AnimationOptions& options = {},
               const LoadOptions& load = {}, const SessionOptions& session = {});
     ~Animation();

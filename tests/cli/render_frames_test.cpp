@@ -173,6 +173,7 @@ TEST_F(Frames, ThatWereInterruptedAreNotWritten) {
 TEST_F(Frames, BadInputIsOneClearMessage) {
     const std::string still = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{}]})";
     std::ofstream(folder_ / "still.gltf") << still;
+    std::ofstream(folder_ / "still.xml") << "<scene version='3.0.0'/>";
     struct Case {
         std::string options;
         std::string scene;
@@ -190,7 +191,9 @@ TEST_F(Frames, BadInputIsOneClearMessage) {
           {"--frames 1 --save-vpls v", "room.gltf", 2, "--save-vpls"},
           {"--frames 1 --animation run", "room.gltf", 2, "has no animation 'run'"},
           {"--frames 1 --origin 0,1,2", "room.gltf", 2, "needs --target too"},
-          {"--frames 1", "still.gltf", 3, "has no animations; leave out --frames for a picture of it"}}) {
+          // Both files are whole scenes, so that the option is to blame.
+          {"--frames 1", "still.gltf", 2, "has no animations; leave out --frames for a picture of it"},
+          {"--frames 1", "still.xml", 2, "have animations; leave out --frames for a picture of it"}}) {
         const ProgramResult result = run_program("render " + bad.options + " " + quoted(folder_ / bad.scene) +
                                                  " -o " + quoted(folder_ / "x.exr"));
         EXPECT_EQ(result.exit_code, bad.exit_code) << bad.options << ": " << result.errors;

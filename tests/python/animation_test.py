@@ -94,7 +94,7 @@ def test_progress_stops_a_frame_and_errors_leave_the_animation_as_it_was(room):
 
 
 def test_what_cannot_be_animated(room, floor):
-    with pytest.raises(nearlight.Error, match="has no animations"):
+    with pytest.raises(nearlight.InvalidArgument, match="has no animations"):
         nearlight.Animation(floor)
     with pytest.raises(nearlight.InvalidArgument, match="has no animation 'wakl'; did you mean 'walk'"):
         nearlight.Animation(room, animations=["wakl"])

@@ -284,7 +284,9 @@ TEST_F(GltfAnimation, MotionsOfSeveralThingsArePlayedTogether) {
 }
 
 TEST_F(GltfAnimation, AnimationsThatAreNotThereOrDoNotFitAreRefused) {
-    EXPECT_TRUE(mentions(error_at(0), "has no animations"));
+    const Error none = error_at(0);
+    EXPECT_EQ(none.kind(), ErrorKind::invalid_argument);
+    EXPECT_TRUE(mentions(none, "has no animations"));
     add_walking_camera();
     animate(1, "translation", times({0, 2}), gltf_.points({0, 0, 0, 0, 0, 2}), "LINEAR", "run");
     const Error unknown = error_at(0, {"wakl"});

@@ -138,7 +138,7 @@ TimeSpan united(const std::optional<TimeSpan>& span, const KeyCurve& curve) {
 
 TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes) {
     if (file.model.animations.empty()) {
-        throw Error(ErrorKind::file, file.path.string() + ": has no animations", "frames");
+        throw Error(ErrorKind::invalid_argument, file.path.string() + ": has no animations", "frames");
     }
     if (std::ranges::find(file.model.extensionsUsed, "KHR_animation_pointer") !=
         file.model.extensionsUsed.end()) {

@@ -12,9 +12,9 @@
 namespace nearlight::core::gltf {
 
 /// Gives the nodes the translations, rotations, scales and weights of morph targets that they have at that
-/// moment. Returns the time from the first to the last key. Calls fail() if the file has no animations or a
-/// played one is broken; throws Error(ErrorKind::invalid_argument) for animations that are not there or that
-/// move the same node in the same way.
+/// moment. Returns the time from the first to the last key. Calls fail() if a played animation is broken;
+/// throws Error(ErrorKind::invalid_argument) if the file has no animations, for animations that are not
+/// there, and for those that move the same node in the same way.
 TimeSpan pose_nodes(GltfFile& file, const SceneMoment& moment, NoteSink& notes);
 
 /// The animations of the file. What pose_nodes() would say of a broken one is its fault.
