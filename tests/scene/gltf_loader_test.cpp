@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "tests/scene/gltf_text.h"
@@ -327,12 +328,37 @@ TEST_F(GltfLoader, WhatIsCutShortOrNoGltfIsRefused) {
         EXPECT_THAT(file_error([&] { load_scene(files_.write("cut.glb", binary.substr(0, length))); }),
                     HasSubstr("not a valid glTF"));
     }
-    EXPECT_THAT(file_error([&] { load_scene(files_.write("no.gltf", "{\"asset\": ")); }),
-                HasSubstr("not a valid glTF"));
-    EXPECT_THAT(file_error([&] { load_scene(files_.write("no.gltf", "[]")); }), HasSubstr("no.gltf"));
+    EXPECT_THAT(file_error([&] { load_scene(files_.write("no.gltf", "[]")); }),
+                HasSubstr("no.gltf: not a valid glTF file: it is empty"));
     std::string old = binary;
     old[4] = 1;
     EXPECT_THAT(file_error([&] { load_scene(files_.write("old.glb", old)); }), HasSubstr("is of glTF 1"));
+}
+
+TEST_F(GltfLoader, BrokenJsonIsSaidToBeSoWithItsPlace) {
+    struct Case {
+        std::string text;
+        const char* fault;
+    };
+    for (const Case& broken :
+         {Case{"", "line 1, column 1: it ends too early, and may have been cut short"},
+          {"{\"asset\": ", "line 1, column 11: it ends too early"},
+          {"{\"asset\":\n {\"version\": tr", "line 2, column 16: it ends too early"},
+          {"{\n  \"asset\": {\"version\": \"2.0\"}}\n}", "line 3, column 1: unexpected '}'"},
+          {"hello", "line 1, column 1: unexpected 'h'"},
+          {"{\"ä\": \xff}", "line 1, column 7: an unexpected character"},
+          {"{\"a\x1b[31m\": 1}", "line 1, column 4: a text has a line break or another control character"},
+          {"{\"a\nb\": 1}", "line 1, column 4: a text has a line break"},
+          {"{\"a\": \"\xff\"}", "line 1, column 8: a text is not UTF-8"},
+          {"{\"a\": \"\\x\"}", "line 1, column 9: a text is broken"},
+          {"{\"a\": 1e999}", "line 1, column 11: a number is too large"}}) {
+        const std::string path = files_.write("no.gltf", broken.text).string();
+        const std::string error = file_error([&] { load_scene(path); });
+        EXPECT_THAT(error,
+                    HasSubstr(path + ": not a valid glTF file: its JSON is broken at " + broken.fault));
+        EXPECT_TRUE(error.ends_with("; export the scene again, or correct it there")) << error;
+        EXPECT_TRUE(std::ranges::all_of(error, [](char c) { return c >= 0x20 && c < 0x7f; })) << error;
+    }
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ void check_required(const GltfFile& file, const std::string& extension) {
 
 /// Whether a file uses a compression that this build can decode.
 bool is_decoded(const JsonSurvey& survey, std::string_view extension) {
-    return survey.is_valid && std::ranges::find(survey.used, extension) != survey.used.end() &&
+    return std::ranges::find(survey.used, extension) != survey.used.end() &&
            compression_of(extension)->can_decode();
 }
 
@@ -124,8 +124,8 @@ bool is_decoded_by_meshopt(const JsonSurvey& survey) {
 /// The deepest nesting of JSON that is read, because tinygltf follows it on the stack.
 constexpr std::size_t kMaxNesting = 200;
 
-/// Refuses what tinygltf must not see: glTF 1, extensions that are not supported here, and JSON that would
-/// overflow the stack.
+/// Refuses what tinygltf must not see: glTF 1, extensions that are not supported here, JSON that would
+/// overflow the stack, and broken JSON, of which it says little that helps.
 void check_before_reading(const GltfFile& file, const FileChunks& chunks, const JsonSurvey& survey) {
     if (chunks.is_version_1 || survey.is_version_1) {
         file.fail("is of glTF 1, but only glTF 2.0 is read; convert it, for example with gltf-pipeline");
@@ -136,6 +136,10 @@ void check_before_reading(const GltfFile& file, const FileChunks& chunks, const 
     if (survey.depth > kMaxNesting) {
         file.fail("its JSON is nested " + std::to_string(survey.depth) + " levels deep, which is more than " +
                   std::to_string(kMaxNesting) + "; export the scene without 'extras'");
+    }
+    if (!survey.fault.empty()) {
+        file.fail("not a valid glTF file: its JSON is broken at " + survey.fault +
+                  "; export the scene again, or correct it there");
     }
 }
 
@@ -185,7 +189,9 @@ void parse_json(GltfFile& file, const std::string& json) {
     std::string warning;
     if (!reader.LoadASCIIFromString(&file.model, &error, &warning, json.data(),
                                     static_cast<unsigned int>(json.size()), "")) {
-        file.fail("not a valid glTF file: " + (error.empty() ? "it is empty" : first_line(error)));
+        // Of a text without members, tinygltf says that it is short.
+        const bool is_empty = json.size() < 4 || error.empty();
+        file.fail("not a valid glTF file: " + (is_empty ? "it is empty" : first_line(error)));
     }
 }
 
@@ -256,8 +262,7 @@ GltfFile read_gltf(const std::filesystem::path& path) {
     const bool is_compressed = is_decoded_by_meshopt(survey);
     const Decoders decoders{.draco = is_decoded(survey, "KHR_draco_mesh_compression"),
                             .meshopt = is_compressed};
-    LeanJson lean = survey.is_valid ? lean_json(chunks.json, chunks.is_binary, decoders)
-                                    : LeanJson{.text = std::string(chunks.json)};
+    LeanJson lean = lean_json(chunks.json, chunks.is_binary, decoders);
     parse_json(file, lean.text);
     check_version(file);
     put_images_back(file, lean.images);

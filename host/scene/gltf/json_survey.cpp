@@ -12,10 +12,41 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kNumberOverflow = 406;  // as nlohmann's exceptions are numbered
+
+/// Line and column of a byte of the text, counted from 1, columns in characters of UTF-8.
+std::string place_of(std::string_view text, std::size_t at) {
+    const std::string_view before = text.substr(0, at);
+    const std::size_t line_begin = before.find_last_of('\n') + 1;  // npos + 1 is 0
+    const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; };
+    return "line " + std::to_string(1 + std::ranges::count(before, '\n')) + ", column " +
+           std::to_string(1 + std::ranges::count_if(before.substr(line_begin), begins_character));
+}
+
+/// What is wrong with the byte `at`, which is the last one that was read. The library's own words are for
+/// programmers.
+std::string reason_of(std::string_view text, std::size_t at, const Json::exception& exception) {
+    if (at >= text.size()) {
+        return "it ends too early, and may have been cut short";
+    }
+    if (exception.id == kNumberOverflow) {
+        return "a number is too large";
+    }
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const bool is_control = byte < 0x20;
+    if (std::string_view(exception.what()).find("invalid string") != std::string_view::npos) {
+        return is_control     ? "a text has a line break or another control character"
+               : byte >= 0x80 ? "a text is not UTF-8"
+                              : "a text is broken";
+    }
+    return is_control || byte >= 0x7f ? "an unexpected character"
+                                      : "unexpected '" + std::string(1, text[at]) + "'";
+}
+
 /// Follows the nesting, and collects the strings of the root's lists of extensions.
 class Surveyor : public nlohmann::json_sax<Json> {
   public:
-    explicit Surveyor(JsonSurvey& survey) : survey_(survey) {}
+    Surveyor(std::string_view text, JsonSurvey& survey) : text_(text), survey_(survey) {}
 
     bool null() override { return true; }
     bool boolean(bool) override { return true; }
@@ -45,7 +76,12 @@ class Surveyor : public nlohmann::json_sax<Json> {
     bool start_array(std::size_t) override { return begin(); }
     bool end_object() override { return end(); }
     bool end_array() override { return end(); }
-    bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+    /// `read` bytes of the text were read, or all of them and its end.
+    bool parse_error(std::size_t read, const std::string&, const Json::exception& exception) override {
+        const std::size_t at = std::min(read - std::min<std::size_t>(read, 1), text_.size());
+        survey_.fault = place_of(text_, at) + ": " + reason_of(text_, at, exception);
+        return false;
+    }
 
   private:
     bool begin() {
@@ -57,6 +93,7 @@ class Surveyor : public nlohmann::json_sax<Json> {
         return true;
     }
 
+    std::string_view text_;
     JsonSurvey& survey_;
     std::size_t depth_ = 0;
     std::vector<std::string>* list_ = nullptr;
@@ -185,8 +222,8 @@ std::vector<TakenIndices> take_indices(Json& root) {
 
 JsonSurvey survey_json(std::string_view text) {
     JsonSurvey survey;
-    Surveyor surveyor(survey);
-    survey.is_valid = Json::sax_parse(text, &surveyor);
+    Surveyor surveyor(text, survey);
+    static_cast<void>(Json::sax_parse(text, &surveyor));
     return survey;
 }
 

@@ -11,7 +11,7 @@
 namespace nearlight::core::gltf {
 
 struct JsonSurvey {
-    bool is_valid = false;
+    std::string fault{};                ///< where the JSON is broken, and how; empty if it is valid
     std::size_t depth = 0;              ///< how deep arrays and objects are nested
     std::vector<std::string> required;  ///< what `extensionsRequired` names
     std::vector<std::string> used;      ///< what `extensionsUsed` names
