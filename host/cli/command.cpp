@@ -145,6 +145,21 @@ Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     return {ErrorKind::invalid_argument, text + (text.back() == '?' ? " See '" : "; see '") + help + "'"};
 }
 
+/// Throws if an option or an argument of the command is given an empty value, as by a variable of a script
+/// that is not set. Commands would take it for one that is not given.
+void refuse_empty_values(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const bool has_empty =
+            std::ranges::any_of(option->results(), [](const std::string& value) { return value.empty(); });
+        if (has_empty) {
+            const std::string needs =
+                option->get_positional() ? "" : ", but needs a value, " + option->get_type_name();
+            throw Error(ErrorKind::invalid_argument, option->get_name() + " is empty" + needs + "; see '" +
+                                                         full_name(command) + " --help'");
+        }
+    }
+}
+
 std::string short_usage(const CLI::App& app) {
     std::string text = "usage: nearlight COMMAND ...\n\n";
     for (const CLI::App* command : app.get_subcommands(is_listed)) {
@@ -208,6 +223,7 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
         std::cerr << short_usage(app_);
         return ExitCode::usage;
     }
+    refuse_empty_values(named_command(app_));
     if (global_.quiet && global_.verbose) {
         throw Error(ErrorKind::invalid_argument,
                     "--quiet and --verbose contradict each other; give only one of them");

@@ -125,6 +125,23 @@ TEST(CommandLine, WrongLinesAreUsageErrors) {
     expect_error(run_program("render a.xml --spp " + std::string(100000, '9')), 2, "--spp");
 }
 
+/// A script whose variable is not set gives an empty value.
+TEST(CommandLine, EmptyValuesAreUsageErrors) {
+    expect_error(run_program("render a.xml --camera ''"), 2,
+                 "--camera is empty, but needs a value, NAME|N; see 'nearlight render --help'");
+    expect_error(run_program("render a.xml --tev ''"), 2,
+                 "--tev is empty, but needs a value, HOST:PORT; see");
+    expect_error(run_program("view a.xml --tev ''"), 2, "--tev is empty, but needs a value, HOST:PORT; see");
+    expect_error(run_program("render a.xml --exposure ''"), 2, "--exposure is empty, but needs a value");
+    expect_error(run_program("render a.xml --spp ''"), 2, "--spp");
+    expect_error(run_program("render a.xml -o a.png -o ''"), 2,
+                 "--output is empty, but needs a value, OUT; see");
+    expect_error(run_program("render ''"), 2, "SCENE is empty; see 'nearlight render --help'");
+    expect_error(run_program("diff a ''"), 2, "B is empty; see 'nearlight diff --help'");
+    expect_error(run_program("bench gather a.xml --dump ''"), 2,
+                 "--dump is empty, but needs a value, FILE; see 'nearlight bench gather --help'");
+}
+
 TEST(CommandLine, WordsThatAnOptionTakesAreListed) {
     expect_error(run_program("render a.xml --glass foo"), 2,
                  "unknown --glass 'foo'; choose one of: refract, clear");

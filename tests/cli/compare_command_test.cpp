@@ -109,7 +109,7 @@ TEST_F(Compare, BadOptionsAreFoundBeforeAnyWork) {
         EXPECT_EQ(result.output, "");
     };
     expect_usage_error("--samplers instant-radiosty", "close-range:paper");
-    expect_usage_error("--samplers ''", "instant-radiosity");
+    expect_usage_error("--samplers ''", "--samplers is empty");
     expect_usage_error("--vpls 0,abc", "--vpls");
     expect_usage_error("--vpls ''", "--vpls");
     expect_usage_error("--vpls 100,100", "twice");
