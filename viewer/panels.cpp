@@ -114,7 +114,7 @@ void draw_light_settings(ViewerState& state, const PanelFacts& facts, Changes& c
                             0.0f, 1.0f, "share of the VPLs that lie in the close range");
     }
     changes.sampling |=
-        slider("VPLs", settings.sampling.vpl_count, 1, 100'000, "VPLs that a pixel asks about in all");
+        slider("VPLs", settings.sampling.vpl_count, 1, 100'000, "VPLs that a pixel asks in all");
     changes.samples |= slider("samples", settings.gather.samples_per_pixel, 1, 4096,
                               "samples of a pixel, which are as many passes");
     std::uint32_t direct = settings.gather.direct_samples_per_pixel.value_or(kDefaultDirectSamples);

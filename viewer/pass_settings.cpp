@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kMinStrata = kInterleave * kInterleave;
 /// More are refused by Session::gather().
 constexpr std::uint32_t kMaxStrata = 65536;
-/// A pixel of a quick picture asks about so many VPLs: fewer save little, because camera and light rays cost
+/// A pixel of a quick picture asks so many VPLs: fewer save little, because camera and light rays cost
 /// as much.
 constexpr std::uint32_t kQuickVpls = 8;
 /// A set of VPLs serves so many passes.

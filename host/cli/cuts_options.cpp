@@ -12,12 +12,12 @@ void add_cuts_options(CLI::App& command, std::string& cuts, SamplingSettings& sa
     add_words(
         command, "--cuts", {"on", "off", "auto"}, [&cuts](const std::string& word) { cuts = word; },
         "on: there are more VPLs than --vpls, and each small group of neighbouring samples (a "
-        "bundle) asks about those that could bring it most; off: there are as many as --vpls; "
+        "bundle) asks those that could bring it most; off: there are as many as --vpls; "
         "auto: on with --vpl-set")
         ->default_str(cuts);
     command
         .add_option("--vpl-set", sampling.set_count,
-                    "With --cuts, target number of VPLs in all, of which a pixel asks about --vpls (default: "
+                    "With --cuts, target number of VPLs in all, of which a pixel asks --vpls (default: "
                     "64 times --vpls, at most 2^20)")
         ->check(CLI::Range(1u, kMaxVpls))
         ->type_name("N");

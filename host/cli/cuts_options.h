@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of cuts: how many VPLs there are beyond those that a pixel asks about.
+// The options of cuts: how many VPLs there are beyond those that a pixel asks.
 #pragma once
 
 #include <string>

@@ -60,7 +60,7 @@ void add_passes(nlohmann::ordered_json& json, const RenderSettings& settings, co
     json["relative_error_asked"] = or_null(settings.error);
 }
 
-/// Whether pixels ask about a part of the set only. A file of VPLs says so itself.
+/// Whether pixels ask a part of the set only. A file of VPLs says so itself.
 bool asks_part(const SamplingSettings& sampling, const RenderReport& report) {
     return sampling.file.empty() ? sampling.cuts : report.asked_count > 0;
 }

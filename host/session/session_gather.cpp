@@ -109,8 +109,7 @@ std::shared_ptr<PlannedPicture> Session::plan(const View& view, const VplSet& vp
                                               const GatherSettings& settings, uint seed) {
     if (vpls.asked_count > 0 && settings.roulette > 0.0f) {
         throw Error(ErrorKind::invalid_argument,
-                    "these VPLs are asked about by cuts, which leave nothing to Russian roulette",
-                    "roulette");
+                    "these VPLs are asked by cuts, which leave nothing to Russian roulette", "roulette");
     }
     const PixelWindow window = window_of(view, settings);
     Camera camera = view.camera;

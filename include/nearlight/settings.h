@@ -83,10 +83,10 @@ struct ViewSettings {
 struct SamplingSettings {
     SamplerKind sampler = SamplerKind::close_range;
     Policy policy = Policy::complete;
-    /// Target number of VPLs that a pixel asks about, at most 50 million; light walks decide the exact one.
+    /// Target number of VPLs that a pixel asks, at most 50 million; light walks decide the exact one.
     std::uint32_t vpl_count = 1000;
-    /// Whether the set holds more VPLs than a pixel asks about, so that each bundle of receivers asks about
-    /// those that could bring it most. The sampler `local` ignores it.
+    /// Whether the set holds more VPLs than a pixel asks, so that each bundle of receivers asks those that
+    /// could bring it most. The sampler `local` ignores it.
     bool cuts = false;
     /// With cuts, the target number of VPLs in the set, 1 to 50 million; empty: 64 times `vpl_count`, but at
     /// most 2^20. Without cuts, or if it is less than `vpl_count`, or if that is 0, the set has `vpl_count`.
@@ -108,7 +108,7 @@ struct SamplingSettings {
 
     friend bool operator==(const SamplingSettings&, const SamplingSettings&) = default;
 
-    /// Whether bundles of receivers ask about a part of the set only.
+    /// Whether bundles of receivers ask a part of the set only.
     [[nodiscard]] bool asks_part() const { return set_count_or_auto() > vpl_count; }
 };
 
@@ -126,12 +126,12 @@ struct PixelWindow {
 struct GatherSettings {
     std::uint32_t samples_per_pixel = 16;  ///< 1 to 65536
     /// The number of strata into which the set of VPLs is divided, 1 to 65536. The samples of a pixel take
-    /// turns: each asks about the VPLs of one stratum, which then count for the whole set, so that
-    /// `vpl_count` is what the pixel asks about in all. 1 makes every sample ask about all VPLs; empty makes
-    /// as many strata as there are samples in a pixel, or in a square of `interleave`.
+    /// turns: each asks the VPLs of one stratum, which then count for the whole set, so that `vpl_count` is
+    /// what the pixel asks in all. 1 makes every sample ask all VPLs; empty makes as many strata as there are
+    /// samples in a pixel, or in a square of `interleave`.
     std::optional<std::uint32_t> strata{};
     /// Above 1, the pixels of each square of interleave × interleave pixels share the strata too, so that a
-    /// pixel asks about that part of `vpl_count` only. The noise of neighbouring pixels is then independent,
+    /// pixel asks that part of `vpl_count` only. The noise of neighbouring pixels is then independent,
     /// which denoisers need. 1, 2 or 4.
     std::uint32_t interleave = 1;
     /// The part of the picture to make; empty: all of it. Its pixels are those of the whole picture, to the
@@ -165,8 +165,8 @@ struct GatherSettings {
     /// dot, not a bright tile. Empty: as a pilot chooses.
     std::optional<float> shared_limit{};
     /// The threshold of Russian roulette, as a multiple of the mean that VPLs could bring, 0 to 1000. A
-    /// bundle of receivers asks about VPLs below it only by chance; 0 makes every bundle ask about every VPL.
-    /// The sampler `local` ignores it.
+    /// bundle of receivers asks VPLs below it only by chance; 0 makes every bundle ask every VPL. The sampler
+    /// `local` ignores it.
     float roulette = 0.0f;
     /// A pixel's only sample goes through its middle, unless this is set: then it lies anywhere in the reach
     /// of the reconstruction filter, so that the mean of many such pictures has smooth edges. The passes of a
