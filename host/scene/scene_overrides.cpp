@@ -38,6 +38,16 @@ void check(const SceneOverrides& overrides) {
                 "light_scale");
 }
 
+/// Refuses an origin from which the middle of the scene lies in no direction, or only in one of rounding.
+void refuse_middle(Vec3 origin, const Aabb& box) {
+    if (length(origin - box.center()) <= 1e-6f * length(box.size())) {
+        throw Error(ErrorKind::invalid_argument,
+                    "a camera with an origin and no target looks at the middle of the scene, and this origin "
+                    "is that middle; give a target, too",
+                    "target");
+    }
+}
+
 /// The axis of the world that is nearest to the camera's up, unless the pose looks along it.
 std::array<double, 3> upward_axis(const SceneCamera& camera, const ExactPose& pose) {
     const std::array<double, 3> view{pose.target[0] - pose.origin[0], pose.target[1] - pose.origin[1],
@@ -185,7 +195,11 @@ SceneCamera overridden(SceneCamera camera, const Scene& scene, const SceneOverri
     }
     ExactPose pose = exact_pose_of(camera);
     if (overrides.origin) {
-        const Vec3 middle = bounds(scene).center();
+        const Aabb box = bounds(scene);
+        const Vec3 middle = box.center();
+        if (!overrides.target) {
+            refuse_middle(eye_of(scene, overrides), box);
+        }
         pose.origin = *overrides.origin;
         pose.target = {double{middle.x}, double{middle.y}, double{middle.z}};
     }

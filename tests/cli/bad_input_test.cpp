@@ -238,6 +238,9 @@ TEST_F(BadInput, CamerasAndLight) {
     expect_error(render(scene, "--up 1,2,3,4"), 2, "--up must be X,Y,Z");
     expect_error(render(scene, "--origin 1,2"), 2, "--origin must be X,Y,Z");
     expect_error(render(scene, "--origin 1,2,3 --target 1,2,3"), 2, "its target is its origin");
+    expect_error(render(scene, "--origin 0,0,0"), 2,
+                 "looks at the middle of the scene, and this origin is that middle; give a target, too; see "
+                 "--target");
     expect_error(render(scene, "--up 0,0,0"), 2, "its vector `up` is zero, or points where it looks");
     expect_error(render(scene, "--fov 200"), 2, "field of view");
     expect_error(render(scene, "--environment " + quoted(write("sky.exr", "text"))), 3, "sky.exr");

@@ -27,9 +27,10 @@ class Overrides : public testing::Test {
         options.overrides = overrides;
         return files_.load_xml(content, options);
     }
-    void expect_refused(const SceneOverrides& overrides, const std::string& part) const {
+    void expect_refused(const SceneOverrides& overrides, const std::string& part,
+                        const std::string& content = kScene) const {
         try {
-            static_cast<void>(load(overrides));
+            static_cast<void>(load(overrides, content));
             ADD_FAILURE() << part;
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::invalid_argument);
@@ -78,6 +79,22 @@ TEST_F(Overrides, CamerasStandAndLookAsTheySay) {
     expect_refused({.origin = std::array{nan, 2.0, 3.0}}, "finite");
     expect_refused({.fov_degrees = 180}, "field of view");
     EXPECT_EQ(load({.fov_degrees = 179.95}).camera.fov_x_degrees, 179.95);
+}
+
+/// The middle of the second scene, whose corners are rounded, is not quite (0.1, 0, 0).
+TEST_F(Overrides, ACameraInTheMiddleOfTheSceneNeedsATarget) {
+    const std::string aside =
+        "<shape type='rectangle'><transform name='to_world'><translate x='0.1'/></transform></shape>"
+        "<sensor type='perspective'/>";
+    const std::string what =
+        "looks at the middle of the scene, and this origin is that middle; give a target";
+    expect_refused({.origin = std::array{0.0, 0.0, 0.0}}, what);
+    expect_refused({.origin = std::array{0.1, 0.0, 0.0}}, what, aside);
+    const SceneOverrides beside{.origin = std::array{0.1, 0.0, 0.001}};
+    EXPECT_NEAR(transform_vector(load(beside, aside).camera.to_world, {0, 0, 1}).z, -1, 1e-4f);
+    const SceneOverrides with_target{.origin = std::array{0.0, 0.0, 0.0},
+                                     .target = std::array{0.0, 0.0, 1.0}};
+    EXPECT_NEAR(transform_vector(load(with_target).camera.to_world, {0, 0, 1}).z, 1, 1e-6f);
 }
 
 TEST_F(Overrides, TurnNoCameraFarAwayThatOnlyGetsAnotherLens) {
