@@ -302,8 +302,7 @@ void PictureFiles::write_waiting(bool quiet) {
         return;
     }
     const float exposure = meter_.exposure();
-    spdlog::log(quiet ? spdlog::level::debug : spdlog::level::info,
-                "exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look_.curve));
+    tell_automatic_exposure(look_, exposure, quiet);
     for (const std::string& file : options_.outputs) {
         if (waits_for_exposure(file)) {
             ImageWriter writer(file, width_, height_, {"R", "G", "B"},

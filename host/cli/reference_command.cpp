@@ -91,10 +91,12 @@ bool is_filled(const Image& image) {
 }
 
 /// Writes the picture, and returns the files that were written: one without samples in all its pixels does
-/// not take the place of an older picture.
+/// not take the place of an older picture. `quiet` is tell_automatic_exposure()'s.
 std::vector<std::filesystem::path> write_outputs(const ReferenceOptions& options, const Scene& scene,
-                                                 const Image& image, const Metadata& metadata) {
+                                                 const Image& image, const Metadata& metadata,
+                                                 bool quiet = false) {
     const ScreenLook look = screen_look(options.screen, scene);
+    std::optional<float> exposure = look.exposure;
     const bool replaces = is_filled(image);
     std::vector<std::filesystem::path> written;
     for (const std::filesystem::path& output : options.outputs) {
@@ -106,9 +108,11 @@ std::vector<std::filesystem::path> write_outputs(const ReferenceOptions& options
             write_image(output, image, {.metadata = metadata});
             continue;
         }
-        const float exposure =
-            look.exposure ? *look.exposure : automatic_exposure(image.channels, image.values);
-        write_image(output, image, screen_writer_options(look, exposure, metadata));
+        if (!exposure) {
+            exposure = automatic_exposure(image.channels, image.values);
+            tell_automatic_exposure(look, *exposure, quiet);
+        }
+        write_image(output, image, screen_writer_options(look, *exposure, metadata));
     }
     return written;
 }
@@ -192,7 +196,7 @@ void trace(const ReferenceOptions& options, const GlobalOptions& global, const S
     const Stopwatch watch;
     const auto save = [&](const Image& image) {
         write_outputs(options, scene, image,
-                      make_metadata(settings, scene, outcome.earlier_seconds + watch.seconds(), false));
+                      make_metadata(settings, scene, outcome.earlier_seconds + watch.seconds(), false), true);
     };
     catch_interrupts();
     ProgressBar bar("path tracing", global);

@@ -47,6 +47,11 @@ ScreenLook screen_look(const ScreenOptions& options, const Scene& scene) {
                        scene.has_open_exposure ? ScreenLook{ToneCurve::neutral, std::nullopt} : ScreenLook());
 }
 
+void tell_automatic_exposure(const ScreenLook& look, float exposure, bool quiet) {
+    spdlog::log(quiet ? spdlog::level::debug : spdlog::level::info,
+                "exposure {:+.2f} stops (automatic), tone curve {}", exposure, to_string(look.curve));
+}
+
 ImageWriterOptions screen_writer_options(const ScreenLook& look, float exposure, Metadata metadata) {
     metadata["nearlight:tonemap"] = to_string(look.curve);
     metadata["nearlight:exposure"] = fmt::format("{:+.3f}", exposure);

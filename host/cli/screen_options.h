@@ -35,6 +35,9 @@ ScreenLook screen_look(const ScreenOptions& options, const Scene& scene);
 /// The look of a picture whose scene asks for `look`.
 ScreenLook chosen_look(const ScreenOptions& options, ScreenLook look);
 
+/// Says which exposure was chosen for a picture with that look. If it is `quiet`, only --verbose shows it.
+void tell_automatic_exposure(const ScreenLook& look, float exposure, bool quiet);
+
 /// Writer options for a PNG file with that look and the attributes that name it.
 ImageWriterOptions screen_writer_options(const ScreenLook& look, float exposure, Metadata metadata);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 
 #include "host/image/image_io.h"
 #include "tests/cli/run_program.h"
@@ -110,6 +112,23 @@ TEST_F(Reference, ExtensionsMayBeInCapitals) {
     const ProgramResult result = run_program(command + " --spp 8");
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(nlohmann::json::parse(result.output)["samples_before"], 4);
+}
+
+TEST_F(Reference, AnAutomaticExposureIsTold) {
+    const std::filesystem::path png = folder_ / "a.png";
+    const std::string command = "reference --spp 4 " + files() + " -o " + quoted(png) + " -o " +
+                                quoted(folder_ / "b.png") + " --tonemap agx --exposure ";
+    const ProgramResult result = run_program(command + "auto");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    std::smatch told;
+    const std::regex line(R"(exposure ([+-][0-9.]+) stops \(automatic\), tone curve agx\n)");
+    ASSERT_TRUE(std::regex_search(result.errors, told, line)) << result.errors;
+    EXPECT_FALSE(std::regex_search(told.suffix().first, told.suffix().second, line)) << "once for both files";
+    const Metadata metadata = read_metadata(png);
+    EXPECT_NEAR(std::stof(std::get<std::string>(metadata.at("nearlight:exposure"))), std::stof(told[1]),
+                0.006f);
+    EXPECT_EQ(std::get<std::string>(metadata.at("nearlight:tonemap")), "agx");
+    EXPECT_EQ(run_program(command + "2").errors.find("automatic"), std::string::npos);
 }
 
 TEST_F(Reference, ResumingKeepsItsBatches) {
