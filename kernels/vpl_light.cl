@@ -3,7 +3,8 @@
 //
 // - vpl_receivers: VPL i becomes lane i % 64 of packet i / 64, with the normal by which its surface receives
 //   light or, if `emits` is 1, the one by which it sends light out. The last packet is filled up with absent
-//   receivers.
+//   receivers. Under a map, the face's normal stands for the mesh's interpolated one, which VPLs do not keep
+//   (docs/method.md, "Maps").
 // - vpl_light: the power of VPL i is multiplied by the irradiance of its lane. A VPL made for an irradiance
 //   of 1 W/m², whose power is the albedo times the area that it stands for, so gets the power that the light
 //   there gives it [paper eq. 2, repaired: angle and distance are to the light].
