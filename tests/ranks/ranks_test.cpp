@@ -94,8 +94,9 @@ nlohmann::json json_of(const ProgramResult& result) {
     return nlohmann::json::parse(result.output, nullptr, false);
 }
 
-/// Many passes, which take longer than it takes to kill a rank.
-const std::string kManyPasses = "--size 256x192 --passes 20 --checkpoint ";
+/// A picture of many passes, which take longer than it takes to kill a rank.
+const std::string kLongPicture = "--size 256x192 --passes 20 --rays 8 ";
+const std::string kManyPasses = kLongPicture + "--checkpoint ";
 
 /// A rank that lives says something every second, also on a machine that is very busy.
 const std::string kWithRecovery = "NEARLIGHT_RANK_SILENCE=5 ";
@@ -186,8 +187,7 @@ TEST_F(Ranks, AfterAKilledRankTheJobIsGoneOnWith) {
                                             arguments(options + " --checkpoint-every 0.2"), mpirun("-n 2"));
     EXPECT_EQ(killed.exit_code, 137) << killed.errors;
     const nlohmann::json resumed = json_of(run_program(arguments(options), mpirun("-n 2")));
-    EXPECT_EQ(resumed["image_hash"],
-              json_of(run_program(arguments("--size 256x192 --passes 20")))["image_hash"]);
+    EXPECT_EQ(resumed["image_hash"], json_of(run_program(arguments(kLongPicture)))["image_hash"]);
 }
 
 TEST_F(Ranks, WithRecoveryTheOthersDoThePartOfAKilledRank) {
@@ -201,8 +201,7 @@ TEST_F(Ranks, WithRecoveryTheOthersDoThePartOfAKilledRank) {
     EXPECT_TRUE(json["device_shares"][1]["failed"].get<bool>());
     EXPECT_FALSE(json["device_shares"][2]["failed"].get<bool>());
     EXPECT_TRUE(json["device_shares"][3]["failed"].get<bool>()) << "its pictures came through rank 1";
-    EXPECT_EQ(json["image_hash"],
-              json_of(run_program(arguments("--size 256x192 --passes 20")))["image_hash"]);
+    EXPECT_EQ(json["image_hash"], json_of(run_program(arguments(kLongPicture)))["image_hash"]);
 }
 
 TEST_F(Ranks, ARankThatDiesWhileItsRowsAreFetchedIsLostAlone) {
@@ -221,8 +220,7 @@ TEST_F(Ranks, ARankThatDiesWhileItsRowsAreFetchedIsLostAlone) {
     ASSERT_TRUE(json.is_object()) << result.errors;
     EXPECT_TRUE(json["device_shares"][1]["failed"].get<bool>());
     EXPECT_FALSE(json["device_shares"][2]["failed"].get<bool>()) << result.errors;
-    EXPECT_EQ(json["image_hash"],
-              json_of(run_program(arguments("--size 256x192 --passes 20")))["image_hash"]);
+    EXPECT_EQ(json["image_hash"], json_of(run_program(arguments(kLongPicture)))["image_hash"]);
 }
 
 TEST_F(Ranks, CtrlCEndsAllRanksAndKeepsWhatThereIs) {
